@@ -62,11 +62,19 @@ constexpr double kSameHeightRatio = 0.05;
 /// The trunk is looked for in solids up to this height and within this distance, in heights of the CoM, or so much
 /// beyond where the feet stand. Chosen.
 constexpr double kTrunkHeight = 1.3, kTrunkRoom = 0.2, kFootRoom = 0.05;
-/// What a way as loose as may be costs more than one over ground, as a ratio. Chosen.
-constexpr double kLooseness = 3.0;
+/// What a way as loose as may be costs more than one over ground, as a ratio, and one on which the robot has no room to
+/// turn on the spot. Chosen.
+constexpr double kLooseness = 3.0, kTight = 1.0;
 /// Spacing of the places that are joined, in strides, and how far beside the way they lie, likewise, or half its length
 /// if that is more; the most places that there may be. Chosen.
 constexpr double kRoadSpacing = 0.25, kRoadMargin = 5.0, kRoadCellsMax = 2e4;
+/// Where no way is found, places so many times as far beside the line are looked at, until they would be this far from
+/// each other, in strides. Chosen: a foot's reach to both sides.
+constexpr double kWiderRoad = 2.0, kRoadSpacingMax = 0.5;
+/// Ground is level where no step is higher than this ratio of the highest that the robot makes. Ways round what is
+/// higher are tried as well, so many. Chosen: blocks of 5 cm for humanoid44, 9 cm for TALOS.
+constexpr double kLevelRise = 0.25;
+constexpr int kLevelDetours = 2;
 /// Detours that are looked for, how many points of one are compared, and what passing within so many strides of one
 /// costs the next. Chosen.
 constexpr int kDetours = 3, kRoadSamples = 40;
@@ -80,6 +88,12 @@ constexpr double kLookAlong = 0.08, kTurnShare = 0.2;
 /// It turns in full where the route is twice so far beside the straight line, over that one's length, and not at all up
 /// to this. Chosen: a route among stones for a quadruped has 0.04, round a post or a hole 0.14 and more.
 constexpr double kTurnAside = 0.05;
+/// What a stride turns a foot by at most [rad], where its joints do not say less. Measured: humanoid44 turns by half a
+/// turn in 18 phases at 0.08.
+constexpr double kTurnStride = 0.7854;
+/// The base turns to the way where it would otherwise look aside by more than this [rad] and it takes fewer phases by
+/// this ratio; below the second one nothing else is tried while there is a plan. Chosen.
+constexpr double kTurnToWay = 0.35, kFewerPhases = 0.8, kFarFewerPhases = 0.5;
 
 // The trunk.
 

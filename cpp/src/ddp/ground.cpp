@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& from, const ResolvedStance& to,
-               double sole_inside) {
+               double sole_inside, double rise_ratio) {
   stride_ = rise_ = std::numeric_limits<double>::infinity();
   height_ = robot.com_height;
   half_width_ = kTrunkRoom * robot.com_height;
@@ -29,11 +29,12 @@ Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& fro
     stride_ = std::min(stride_, size.x());
     rise_ = std::min(rise_, size.z());
     half_width_ = std::max(half_width_, std::abs(end.nominal_B.y()) + end.half_size.y() + kFootRoom * height_);
+    radius_ = std::max(radius_, end.nominal_B.head<2>().norm() + end.half_size.norm() + kFootRoom * height_);
     inside_ = std::max(inside_, support * end.half_size.x());
     const Vector3d place = rotation_from_rpy({0.0, 0.0, from.yaw}) * end.nominal_B;
     nominal_.push_back(turns ? Vector2d::Zero() : Vector2d(place.head<2>()));
   }
-  rise_ *= 1.0 + 1e-9;  // steps just as high are no higher by rounding
+  rise_ *= rise_ratio * (1.0 + 1e-9);  // steps just as high are no higher by rounding
   for (int i = 0; i < static_cast<int>(scene.surfaces.size()); ++i) {
     const Surface& surface = scene.surfaces[i];
     const Solid solid{Polygon(surface.vertices_W), surface.thickness};
@@ -52,6 +53,14 @@ Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& fro
   }
 }
 
+double Ground::extent(const Vector2d& from) const {
+  double farthest = 0.0;
+  for (const Patch& patch : patches_)
+    for (const Vector3d& vertex : patch.polygon.vertices_W())
+      farthest = std::max(farthest, (vertex.head<2>() - from).norm());
+  return farthest;
+}
+
 double Ground::gap() const { return std::max(kGapRatio * stride_ - inside_, kGapRatioMin * stride_); }
 
 /// The point of a patch that is nearest to a point of its plane above or below `at`.
@@ -63,18 +72,17 @@ Ground::Footing Ground::footing(const Patch& patch, const Vector2d& at) const {
   return {(nearest.head<2>() - at).norm(), nearest.z()};
 }
 
-/// The first solid that the trunk is in, a cylinder as wide as the feet stand, from the height of a step to above the
-/// CoM.
-int Ground::solid_at(const Vector2d& at, double height) const {
+/// The first solid that is nearer than that to the CoM's axis, from the height of a step to above the CoM.
+int Ground::solid_at(const Vector2d& at, double height, double within) const {
   const double low = height + rise_, high = height + kTrunkHeight * height_;
   const auto found = std::find_if(solids_.begin(), solids_.end(), [&](const Standing& solid) {
     const Eigen::AlignedBox3d& box = solid.box;
     if (!(box.max().z() > low) || !(box.min().z() < high)) return false;
     const Vector2d nearest = at.cwiseMax(box.min().head<2>()).cwiseMin(box.max().head<2>());
-    if (!((nearest - at).norm() < half_width_)) return false;
+    if (!((nearest - at).norm() < within)) return false;
     // What is flat or upright is as near at the middle of the heights that both have as at any other of them.
     const double middle = 0.5 * (std::max(low, box.min().z()) + std::min(high, box.max().z()));
-    return outside_prism(solid.polygon, solid.thickness, {at.x(), at.y(), middle}).distance < half_width_;
+    return outside_prism(solid.polygon, solid.thickness, {at.x(), at.y(), middle}).distance < within;
   });
   return found == solids_.end() ? -1 : found->surface;
 }
@@ -108,7 +116,9 @@ std::vector<Place> Ground::places(const Vector2d& at) const {
       place.looseness += away / gap() / static_cast<double>(nominal_.size());
     }
     if (!stands) continue;
-    place.solid = solid_at(at, place.height);
+    // The trunk is a cylinder as wide as the feet stand.
+    place.solid = solid_at(at, place.height, half_width_);
+    place.tight = place.solid >= 0 || solid_at(at, place.height, radius_) >= 0;
     out.push_back(place);
   }
   std::sort(out.begin(), out.end(), [](const Place& a, const Place& b) { return a.height > b.height; });

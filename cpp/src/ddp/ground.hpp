@@ -15,15 +15,16 @@ struct Place {
   double looseness = 0.0;  ///< level distance of the feet from ground, on average: 0 on it, 1 as far as may be
   int surface = -1;        ///< of the scene, that the ground belongs to
   int solid = -1;          ///< of the scene, one that stands where the trunk would be, or -1
+  bool tight = false;      ///< a solid is so near that the robot could not turn on the spot
 };
 
 /// The ground that the feet can touch, those end-effectors that stand at both start and goal, and the solids that stand
 /// on it. All lengths in metres, in the world.
 class Ground {
  public:
-  /// `sole_inside`: Options::sole_inside.
+  /// `sole_inside`: Options::sole_inside. Steps are at most so high, as a ratio of what the robot can make.
   Ground(const Scene& scene, const Robot& robot, const ResolvedStance& from, const ResolvedStance& to,
-         double sole_inside);
+         double sole_inside, double rise_ratio = 1.0);
 
   bool has_feet() const { return !feet_.empty(); }
 
@@ -33,7 +34,9 @@ class Ground {
 
   double stride() const { return stride_; }  ///< the longest step of all feet
   double rise() const { return rise_; }      ///< and the highest one
-  double gap() const;                        ///< how far from ground a foot may be in its nominal place
+  /// Level distance from this point to the farthest corner of what holds the feet.
+  double extent(const Eigen::Vector2d& from) const;
+  double gap() const;  ///< how far from ground a foot may be in its nominal place
 
  private:
   struct Patch {
@@ -45,13 +48,14 @@ class Ground {
     double away = 0.0, height = 0.0;
   };
   Footing footing(const Patch& patch, const Eigen::Vector2d& at) const;
-  int solid_at(const Eigen::Vector2d& at, double height) const;
+  int solid_at(const Eigen::Vector2d& at, double height, double within) const;
 
   std::vector<int> feet_;                   // of the robot
   std::vector<Eigen::Vector2d> nominal_;    // from the CoM in the heading of the walk; where it changes, the CoM's
   double stride_ = 0.0, rise_ = 0.0;        // the least of all feet
   double inside_ = 0.0;                     // how far soles stay inside of their surface
   double half_width_ = 0.0, height_ = 0.0;  // of the trunk and the feet beside it
+  double radius_ = 0.0;                     // about the CoM, of all of the feet
   std::vector<Patch> patches_;              // surfaces that hold the feet
   struct Standing {
     Polygon polygon;

@@ -53,8 +53,8 @@ Robot robot_for(Robot robot, const Options& options) {
   return robot;
 }
 
-Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& options_in, const Route& route_in)
-    : scene(scene_in), robot(robot_in), options(options_in), route(route_in) {
+Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& options_in, const Course& course_in)
+    : scene(scene_in), robot(robot_in), options(options_in), course(course_in) {
   robot = robot_for(robot, options);
   scene.validate();
   robot.validate();

@@ -5,8 +5,8 @@
 
 #include "ddp/constants.hpp"
 #include "ddp/contact_sequence.hpp"
+#include "ddp/headings.hpp"
 #include "ddp/layout.hpp"
-#include "ddp/routes.hpp"
 #include "ddp/swing_arcs.hpp"
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/plan/plan.hpp"
@@ -73,13 +73,13 @@ Robot robot_for(Robot robot, const Options& options);
 /// (Method::paper keeps them all).
 class Problem {
  public:
-  /// `route`: what the reference follows from the start to the goal.
-  Problem(const Scene& scene, const Robot& robot, const Options& options, const Route& route = {});
+  /// `course`: what the reference follows from the start to the goal.
+  Problem(const Scene& scene, const Robot& robot, const Options& options, const Course& course = {});
 
   Scene scene;
   Robot robot;
   Options options;
-  Route route;  ///< [m]
+  Course course;
   Units units;
   Similarity similarity;  ///< what margins and durations stated for a robot of human size are multiplied by
   Layout layout;

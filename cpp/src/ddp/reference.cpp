@@ -32,41 +32,49 @@ Vector3d Problem::stride_of(int l) const {
 
 /// As many steps as the end-effectors that stand need to cover the way, level, across the base's heading and up, one
 /// after the other, a swing and a phase of full support each; at least the paper's 18. Boxes are narrow: what lies
-/// across asks for more strides, whatever lies ahead.
+/// across asks for more strides, whatever lies ahead. Where the base turns, they go round it.
 int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
   constexpr int kPieces = 64;
+  const Headings headings(course, from.yaw, to.yaw, (to.com_W - from.com_W).head<2>());
+  const auto level = [](double yaw) { return rotation_from_rpy({0.0, 0.0, yaw}); };
   double strides = 0.0;
   for (std::size_t l = 0; l < active.size(); ++l) {
     const int e = active[l];
     if (from.contacts[e] == kFree || to.contacts[e] == kFree) continue;
-    const auto at = [&](int k) -> Vector3d {
-      const double share = static_cast<double>(k) / kPieces;
-      const Vector3d straight = share * (to.end_effectors_W[e] - from.end_effectors_W[e]);
-      return (route.empty() ? straight : point_on(route, share)) / units.length;
+    const Vector3d before = level(from.yaw).transpose() * (from.end_effectors_W[e] - from.com_W),
+                   after = level(to.yaw).transpose() * (to.end_effectors_W[e] - to.com_W);
+    const auto at = [&](double share) -> Vector3d {
+      const Vector3d straight = from.com_W + share * (to.com_W - from.com_W), place = before + share * (after - before);
+      return ((course.route.empty() ? straight : point_on(course.route, share)) + level(headings.at(share)) * place) /
+             units.length;
     };
-    Vector3d way = Vector3d::Zero();
-    for (int k = 0; k < kPieces; ++k) {
-      const Vector3d piece = at(k + 1) - at(k);
-      const double share = (k + 0.5) / kPieces, yaw = from.yaw + (to.yaw - from.yaw) * share + turn_on(route, share);
-      way += Vector3d(piece.head<2>().norm(), std::abs(std::cos(yaw) * piece.y() - std::sin(yaw) * piece.x()),
-                      std::abs(piece.z()));
-    }
     const Vector3d stride = stride_of(static_cast<int>(l));
-    double most = 0.0;
-    for (int i = 0; i < 3; ++i)
-      if (stride[i] > 0.0) most = std::max(most, way[i] / stride[i]);
-    strides += std::ceil(std::min(most - 1e-9, 1e3));
+    const double turn = std::min(limits[l].yaw_max - limits[l].yaw_min, kTurnStride);
+    double count = 0.0;
+    for (int k = 0; k < kPieces; ++k) {
+      const double share = static_cast<double>(k) / kPieces, next = (k + 1.0) / kPieces;
+      const Vector3d piece = at(next) - at(share);
+      const double yaw = headings.at(0.5 * (share + next));
+      const Vector3d way(piece.head<2>().norm(), std::abs(std::cos(yaw) * piece.y() - std::sin(yaw) * piece.x()),
+                         std::abs(piece.z()));
+      double most = std::abs(headings.at(next) - headings.at(share)) / turn;
+      for (int i = 0; i < 3; ++i)
+        if (stride[i] > 0.0) most = std::max(most, way[i] / stride[i]);
+      count += most;
+    }
+    strides += std::ceil(std::min(count - 1e-9, 1e3));
   }
   return std::clamp(2 * static_cast<int>(strides) + 2, kPaperPhases, kPhasesMax);
 }
 
-/// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index; along the route, where
-/// there is one. End-effectors keep their place relative to the base where that turns.
+/// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index; along the course. End-
+/// effectors keep their place relative to the base where that turns.
 void Problem::make_reference(const VectorXd& goal) {
   const double total = steps * duration_initial;
-  const double yaw_from = rpy(start).z(), yaw_to = rpy(goal).z();
   const auto level = [](double yaw) { return rotation_from_rpy({0.0, 0.0, yaw}); };
   const VectorXd way = goal - start;
+  const Headings headings(course, rpy(start).z(), rpy(goal).z(), way.segment<2>(layout.com()));
+  const Route& route = course.route;
   // What the route has beside the straight line.
   const auto detour = [&](double blend) -> Vector3d {
     if (route.empty()) return Vector3d::Zero();
@@ -85,22 +93,19 @@ void Problem::make_reference(const VectorXd& goal) {
       x.segment<3>(layout.com()) += detour(blend);
       for (int l = 0; l < layout.end_effector_count(); ++l) x.segment<3>(layout.end(l)) += detour(blend);
     }
-    const double yaw = yaw_from + blend * (yaw_to - yaw_from) + turn_on(route, blend);
+    const double yaw = headings.at(blend);
     for (int a = 0; a < layout.axis_count(); ++a) {
-      x[layout.momentum(a)] = inertia[layout.axes()[a]] * rate * way[layout.angle(a)];
-      if (layout.axes()[a] != 2 || route.empty()) continue;
-      constexpr double kNear = 1e-3;
-      const double before = std::max(blend - kNear, 0.0), after = std::min(blend + kNear, 1.0);
-      x[layout.angle(a)] = yaw;
-      x[layout.momentum(a)] += inertia[2] * rate * (turn_on(route, after) - turn_on(route, before)) / (after - before);
+      const bool turns = layout.axes()[a] == 2 && !headings.straight();
+      if (turns) x[layout.angle(a)] = yaw;
+      x[layout.momentum(a)] = inertia[layout.axes()[a]] * rate * (turns ? headings.rate(blend) : way[layout.angle(a)]);
     }
-    if (yaw_from != yaw_to || !route.empty())
+    if (!headings.straight())
       for (int l = 0; l < layout.end_effector_count(); ++l) {
         const auto offset = [&](const VectorXd& at, double yaw) -> Vector3d {
           return level(yaw).transpose() * (at.segment<3>(layout.end(l)) - at.segment<3>(layout.com()));
         };
-        const Vector3d from = offset(start, yaw_from), to = offset(goal, yaw_to);
-        x.segment<3>(layout.end(l)) = x.segment<3>(layout.com()) + level(yaw) * (from + blend * (to - from));
+        const Vector3d before = offset(start, rpy(start).z()), after = offset(goal, rpy(goal).z());
+        x.segment<3>(layout.end(l)) = x.segment<3>(layout.com()) + level(yaw) * (before + blend * (after - before));
       }
     reference.x.push_back(x);
   }

@@ -31,7 +31,7 @@ Vector3d along(const Route& route, double share) {
   return route.back();
 }
 
-double cost_of(const Place& place) { return 1.0 + kLooseness * place.looseness; }
+double cost_of(const Place& place) { return 1.0 + kLooseness * place.looseness + (place.tight ? kTight : 0.0); }
 
 /// A line followed from place to place, each at most a step higher or lower than the one before.
 struct Followed {
@@ -62,9 +62,11 @@ Followed follow(const Ground& ground, const Vector3d& from, const Vector3d& to, 
 /// leads from one to the other.
 class Roadmap {
  public:
-  Roadmap(const Ground& ground, const Vector3d& from, const Vector3d& to) : ground_(&ground), length_(graph_) {
+  /// `margin` [m]: how far they lie beside the way and beyond its ends.
+  Roadmap(const Ground& ground, const Vector3d& from, const Vector3d& to, double margin)
+      : ground_(&ground), length_(graph_) {
     const Vector2d way = (to - from).head<2>();
-    const double length = way.norm(), margin = std::max(kRoadMargin * ground.stride(), 0.5 * length);
+    const double length = way.norm();
     if (length > 0.0) along_ = way / length;
     const Vector2d size(length + 2.0 * margin, 2.0 * margin);
     low_ = from.head<2>() - margin * along_ - margin * across();
@@ -257,27 +259,70 @@ double turn_on(const Route& route, double share) {
   return worth * in * in * (3.0 - 2.0 * in) * std::clamp(turn, -0.5 * M_PI, 0.5 * M_PI);
 }
 
+namespace {
+
+/// From where the start's feet are on the ground to where the goal's are.
+struct Ends {
+  Vector3d from, to;
+
+  double length() const { return (to - from).head<2>().norm(); }
+};
+
+/// Up to `most` ways over this ground, the cheapest one first, none of which could be shifted into another one.
+std::vector<Route> ways_over(const Ground& ground, Roadmap& roadmap, int most) {
+  std::vector<Route> ways;
+  for (int i = 0; i < 2 * kDetours && static_cast<int>(ways.size()) < most; ++i) {
+    const Route route = roadmap.cheapest();
+    if (route.empty()) break;
+    roadmap.avoid(route);
+    const bool known = std::any_of(ways.begin(), ways.end(),
+                                   [&](const Route& other) { return same(ground, route, other, roadmap.spacing()); });
+    if (!known) ways.push_back(route);
+  }
+  return ways;
+}
+
+double margin_of(const Ground& ground, const Ends& ends) {
+  return std::max(kRoadMargin * ground.stride(), 0.5 * ends.length());
+}
+
+/// Farther and farther from the straight line, until there is a way or no ground is left.
+void find_detours(const Ground& ground, const Ends& ends, Routes& routes) {
+  const double widest =
+      std::max(ground.extent(ends.from.head<2>()), ground.extent(ends.to.head<2>())) + ground.stride();
+  for (double margin = margin_of(ground, ends);; margin *= kWiderRoad) {
+    Roadmap roadmap(ground, ends.from, ends.to, std::min(margin, std::max(widest, margin_of(ground, ends))));
+    routes.detours = ways_over(ground, roadmap, kDetours);
+    if (!routes.detours.empty()) return;
+    if (margin >= widest || roadmap.spacing() > kRoadSpacingMax * ground.stride()) {
+      routes.barrier = roadmap.barrier();
+      return;
+    }
+  }
+}
+
+}  // namespace
+
 Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside) {
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
   Routes routes;
   const Ground ground(scene, robot, from, to, sole_inside);
   if (!ground.has_feet() || !(ground.stride() > 0.0)) return routes;
-  const Vector3d down(0.0, 0.0, robot.com_height), begin = from.com_W - down, end = to.com_W - down;
-  const Followed line = follow(ground, begin, end, kRoadSpacing * ground.stride());
+  const Vector3d down(0.0, 0.0, robot.com_height);
+  const Ends ends{from.com_W - down, to.com_W - down};
+  const double spacing = kRoadSpacing * ground.stride();
+  const Followed line = follow(ground, ends.from, ends.to, spacing);
   routes.straight = line.walkable;
   routes.obstructed = line.obstructed;
-  if (line.walkable) return routes;
-  Roadmap roadmap(ground, begin, end);
-  for (int i = 0; i < 2 * kDetours && static_cast<int>(routes.detours.size()) < kDetours; ++i) {
-    const Route route = roadmap.cheapest();
-    if (route.empty()) break;
-    roadmap.avoid(route);
-    const bool known = std::any_of(routes.detours.begin(), routes.detours.end(),
-                                   [&](const Route& other) { return same(ground, route, other, roadmap.spacing()); });
-    if (!known) routes.detours.push_back(route);
+  if (!line.walkable) {
+    find_detours(ground, ends, routes);
+    return routes;
   }
-  if (routes.detours.empty()) routes.barrier = roadmap.barrier();
+  const Ground level(scene, robot, from, to, sole_inside, kLevelRise);
+  if (follow(level, ends.from, ends.to, spacing).walkable) return routes;
+  Roadmap roadmap(level, ends.from, ends.to, margin_of(level, ends));
+  routes.detours = ways_over(level, roadmap, kLevelDetours);
   return routes;
 }
 

@@ -26,13 +26,15 @@ struct Barrier {
 
 /// What is known of the ground between start and goal.
 struct Routes {
-  bool straight = true;            ///< steps lead along the straight line
-  bool obstructed = false;         ///< or would, were there not a solid that the trunk would walk into
-  std::vector<Route> detours;      ///< where they do not: ways round, the cheapest one first; there may be none
+  bool straight = true;     ///< steps lead along the straight line
+  bool obstructed = false;  ///< or would, were there not a solid that the trunk would walk into
+  /// Where they do not, or climb: ways round, the cheapest one first; there may be none.
+  std::vector<Route> detours;
   std::optional<Barrier> barrier;  ///< why none of these leads to the goal, where it is no gap
 };
 
-/// Looks for up to three detours, on different sides of what is in the way. Of scenes where nothing stands at both
+/// Looks for up to three detours, on different sides of what is in the way; where that can be climbed, for up to two on
+/// ground so level that nothing is. Of scenes where nothing stands at both
 /// start and goal nothing is known: they are straight. `sole_inside` is the search's option.
 Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside = -1.0);
 

@@ -109,7 +109,7 @@ Problem WaysToGoal::pose(const Way& way, int phases, std::vector<int>& surfaces,
     }
   Scene part = part_of(*scene_, surfaces);
   if (way.over_bars) cut_at(bars_across(*scene_, *robot_, options_->sole_inside), *robot_, part, surfaces);
-  Problem problem(part, *robot_, with, way.route);
+  Problem problem(part, *robot_, with, way.course);
   problem.watch_swings = way.over_bars;
   return problem;
 }
@@ -117,7 +117,7 @@ Problem WaysToGoal::pose(const Way& way, int phases, std::vector<int>& surfaces,
 /// The problem on as much of the scene as an outlook of this level has.
 WaysToGoal::Posed WaysToGoal::pose_within(int level, const Way& way, int phases, const Beside* beside) const {
   const Outlook look = outlook(options_->method == Method::paper ? kOutlooks - 1 : level);
-  std::vector<int> surfaces = surfaces_of(way.route, look);
+  std::vector<int> surfaces = surfaces_of(way.course.route, look);
   const bool every = surfaces.size() == scene_->surfaces.size();
   Problem problem = pose(way, phases, surfaces, beside);
   problem.look_near(look.nearest, look.within);
@@ -262,14 +262,16 @@ bool WaysToGoal::four_feet_stand() const {
 
 void WaysToGoal::tell(const Way& way, const Found& found) const {
   if (!options_->logger) return;
+  const Route& route = way.course.route;
   std::ostringstream line;
   line << (way.flights ? "" : "without flights, ")
-       << (way.over_bars       ? "over what stands across"
-           : way.route.empty() ? "straight on"
-                               : "by way of");
-  for (std::size_t i = 1; i + 1 < way.route.size(); ++i)
-    line << " (" << model::digits(way.route[i].x(), "%.2f") << ", " << model::digits(way.route[i].y(), "%.2f") << ", "
-         << model::digits(way.route[i].z(), "%.2f") << ")";
+       << (way.over_bars   ? "over what stands across"
+           : route.empty() ? "straight on"
+                           : "by way of");
+  for (std::size_t i = 1; i + 1 < route.size(); ++i)
+    line << " (" << model::digits(route[i].x(), "%.2f") << ", " << model::digits(route[i].y(), "%.2f") << ", "
+         << model::digits(route[i].z(), "%.2f") << ")";
+  if (way.course.faces_way) line << ", turned to the way";
   line << ", in " << found.steps << " phases: ";
   if (!found.best.best())
     line << "no plan";
@@ -296,6 +298,40 @@ std::vector<WaysToGoal::Ahead> WaysToGoal::search_ahead(const std::vector<Way>& 
   return out;
 }
 
+/// Phases of the course on which the base turns to the way, over those of the one on which it does not; 1 where it
+/// would hardly turn. Feet reach far ahead and little to the side.
+double WaysToGoal::phases_facing(const Route& route) const {
+  const Vector3d way = resolve_stance(*scene_, *robot_, scene_->goal, "goal").com_W -
+                       resolve_stance(*scene_, *robot_, scene_->start, "start").com_W;
+  const Course facing{route, true};
+  if (Headings(facing, scene_->start.yaw, scene_->goal.yaw, way.head<2>()).turn_to_way() < kTurnToWay) return 1.0;
+  Options counted = *options_;
+  counted.phases = 0;
+  counted.initial_sequence.clear();
+  return static_cast<double>(Problem(*scene_, *robot_, counted, facing).steps) /
+         Problem(*scene_, *robot_, counted, {route, false}).steps;
+}
+
+/// Detours, and straight on; on each the base turns to the way where that takes fewer phases.
+WaysToGoal::Listed WaysToGoal::ways_of(const Routes& routes, bool given, int least) const {
+  Listed out;
+  out.bars = !given && !bars_across(*scene_, *robot_, options_->sole_inside).empty();
+  const auto add = [&](const Route& route, bool flights, std::vector<Way>& ways) {
+    const double phases = given || !options_->detours ? 1.0 : phases_facing(route);
+    const int limit = out.bars && route.empty() ? options_->max_iterations / 2 : 0;
+    for (const bool faces : {true, false}) {
+      if (faces && !(phases < kFewerPhases)) continue;
+      Way way{{route, faces}, flights, least};
+      way.iterations = limit;
+      (faces || phases > kFarFewerPhases ? ways : out.otherwise).push_back(std::move(way));
+    }
+  };
+  for (const Route& route : routes.detours) add(route, false, out.sure);
+  add({}, options_->allow_flight, routes.obstructed ? out.otherwise : out.sure);
+  for (std::size_t i = 1; i < out.sure.size(); ++i) out.sure[i].brief = true;
+  return out;
+}
+
 /// Straight on; where steps do not lead along there, round what is in the way as well, and where they do, again without
 /// flights if there were any. The best of what is found.
 Found WaysToGoal::search(Report& report) const {
@@ -315,22 +351,17 @@ Found WaysToGoal::search(Report& report) const {
     const bool told = ahead && ahead->found && append(report, std::move(ahead->report), ahead->before, *options_);
     Found found = told ? std::move(*ahead->found) : search_along(way, report);
     tell(way, found);
-    if (!way.route.empty()) try_more_phases(report, found);
+    if (!way.course.route.empty()) try_more_phases(report, found);
     if (way.over_bars) mend(report, found);
     const bool its_own = found.ending == Ending::iteration_limit && report.iterations < options_->max_iterations;
     stopped = !ended_by_itself(found.ending) && !its_own;
     if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
   };
-  const bool bars = !given && !bars_across(*scene_, *robot_, options_->sole_inside).empty();
-  Way straight{{}, options_->allow_flight, least};
-  if (bars) straight.iterations = options_->max_iterations / 2;
-  std::vector<Way> sure;
-  for (const Route& route : routes.detours) sure.push_back({route, false, least});
-  if (!routes.obstructed) sure.push_back(straight);
-  for (std::size_t i = 1; i < sure.size(); ++i) sure[i].brief = true;
+  const auto [sure, otherwise, bars] = ways_of(routes, given, least);
   std::vector<Ahead> ahead = search_ahead(sure, report);
   for (std::size_t i = 0; i < sure.size(); ++i) try_way(sure[i], &ahead[i]);
-  if (routes.obstructed && (!best || !best->best.ok())) try_way(straight);
+  for (const Way& way : otherwise)
+    if (!best || !best->best.ok()) try_way(way);
   if (bars && !best->best.ok()) {
     Way over{{}, false, least};
     over.over_bars = true;
@@ -347,7 +378,7 @@ Found WaysToGoal::search(Report& report) const {
     try_way(leaping);
   }
   best->barrier = routes.barrier;
-  if (best->way.route.empty()) try_more_phases(report, *best);
+  if (best->way.course.route.empty()) try_more_phases(report, *best);
   mend(report, *best);
   return std::move(*best);
 }

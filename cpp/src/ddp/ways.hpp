@@ -5,17 +5,17 @@
 
 #include "ddp/best_plan.hpp"
 #include "ddp/ending.hpp"
+#include "ddp/headings.hpp"
 #include "ddp/problem.hpp"
 #include "ddp/reachable_surfaces.hpp"
-#include "ddp/routes.hpp"
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/plan/report.hpp"
 
 namespace mcplan::ddp {
 
-/// A search of its own: along a route or straight on, with flights or without.
+/// A search of its own: along a course, with flights or without.
 struct Way {
-  Route route;
+  Course course = {};
   bool flights = true;
   int min_contacts = 0;
   bool brief = false;        ///< one attempt: there is a plan already, and this way is the answer only if it costs less
@@ -67,6 +67,13 @@ class WaysToGoal {
   void take_if_cheaper(int phases, Report& report, Found& found) const;
   void mend(Report& report, Found& found) const;
   bool four_feet_stand() const;
+  /// Ways to try, those that may lead to the goal, and others for want of a plan; `bars`: something low stands across.
+  struct Listed {
+    std::vector<Way> sure, otherwise;
+    bool bars = false;
+  };
+  Listed ways_of(const Routes& routes, bool given, int least) const;
+  double phases_facing(const Route& route) const;
   void tell(const Way& way, const Found& found) const;
   /// What a thread has found on a way ahead of the others, if it came to its end.
   struct Ahead {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -121,4 +122,59 @@ TEST_CASE("the base turns with a route: to its left where that goes left, back a
   Route turned;
   for (const Vector3d& at : left) turned.emplace_back(-at.y(), at.x(), at.z());
   for (int i = 0; i <= 50; ++i) CHECK(std::abs(turn_on(turned, i / 50.0) - turn_on(left, i / 50.0)) < 1e-9);
+}
+
+TEST_CASE("a block that a foot is set on is gone round as well, one that is hardly higher than the ground is not") {
+  for (const double height : {0.15, 0.04}) {
+    Scene scene = scenes::flat();
+    scene.surfaces.push_back(scenes::rectangle("block", 0.7, 1.3, -0.3, 0.3, height));
+    scene.surfaces.back().thickness = height;
+    const Routes routes = find_routes(scene, scenes::humanoid44());
+    CHECK(routes.straight);
+    CHECK(routes.detours.size() == (height > 0.1 ? 2 : 0));
+    for (const Route& route : routes.detours) {
+      CHECK(std::abs(point_on(route, 0.5).y()) > 0.3);
+      for (const Vector3d& at : route) CHECK(at.z() == 0.0);
+    }
+  }
+}
+
+TEST_CASE("the end of a wall is found far from the straight line, and whether there is none") {
+  mcplan::Robot robot = scenes::humanoid44();
+  for (mcplan::EndEffector& end : robot.end_effectors)  // strides of 0.3 m: five of them end at the wall
+    end.reach_min_B.x() = -(end.reach_max_B.x() = end.nominal_B.x() + 0.15);
+  Scene scene = scenes::flat();
+  scene.surfaces[0] = scenes::rectangle("ground", -8, 10, -8, 8, 0);
+  for (const double half : {2.5, 8.0}) {
+    scene.surfaces.resize(1);
+    scene.surfaces.push_back(scenes::rectangle("wall", 0.9, 1.0, -half, half, 1.5, "hand"));
+    scene.surfaces.back().thickness = 1.5;
+    const Routes routes = find_routes(scene, robot);
+    CHECK(routes.obstructed);
+    CHECK(routes.detours.empty() == (half > 5.0));
+    CHECK(routes.barrier.has_value() == (half > 5.0));
+  }
+}
+
+TEST_CASE("a route has room to turn on the spot where that costs little") {
+  Scene scene = scenes::flat(3.0);
+  scene.surfaces[0] = scenes::rectangle("ground", -2, 6, -5, 5, 0);
+  scene.surfaces.push_back(scenes::rectangle("fence", 1.4, 1.5, -1, 1, 1.0, "hand"));
+  scene.surfaces.back().thickness = 1.0;
+  mcplan::Robot robot = scenes::humanoid44();
+  double ahead = 0.4, radius = 0.0;
+  for (mcplan::EndEffector& end : robot.end_effectors) {
+    if (end.kind != "foot") continue;
+    end.nominal_B.x() += ahead;
+    end.reach_min_B.x() += ahead;
+    end.reach_max_B.x() += ahead;
+    radius = std::max(radius, end.nominal_B.head<2>().norm());
+    ahead = -ahead;
+  }
+  const Routes routes = find_routes(scene, robot);
+  REQUIRE_FALSE(routes.detours.empty());
+  for (int s = 0; s <= 100; ++s) {
+    const Eigen::Vector2d at = point_on(routes.detours[0], s / 100.0).head<2>();
+    CHECK((at - at.cwiseMax(Eigen::Vector2d(1.4, -1)).cwiseMin(Eigen::Vector2d(1.5, 1))).norm() > 0.9 * radius);
+  }
 }

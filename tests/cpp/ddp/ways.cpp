@@ -46,7 +46,7 @@ Outcome searched(const Options& given, std::vector<std::string>* ways = nullptr,
   for (const mcplan::Iteration& row : report.history) out.rows.push_back(row.merit + row.index);
   if (found.best.best()) out.cost = found.best.best()->evaluation.cost;
   out.iterations = report.iterations;
-  out.by_route = !found.way.route.empty();
+  out.by_route = !found.way.course.route.empty();
   return out;
 }
 
