@@ -1,5 +1,6 @@
 #include "ipm/order.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <numeric>
 
@@ -30,14 +31,37 @@ bool has_inequality(const nlp::Problem::Block& block, const Unknowns& unknowns) 
   return false;
 }
 
-/// Variables of one stage that no piece joins to those of another, and that have a bound: it makes their block of the
-/// matrix positive, so that they can be eliminated by themselves.
+/// Whether a piece's inequalities bound all of its variables, as the rows of a friction cone do: a linear map A of full
+/// rank, whose A' D A is positive with any positive D.
+bool bounds_all(const nlp::Problem::Block& block, const Unknowns& unknowns) {
+  const nlp::Piece& piece = *block.piece;
+  const int rows = piece.rows(), columns = piece.size();
+  if (block.is_cost() || !piece.linear() || rows < columns) return false;
+  for (int i = 0; i < rows; ++i)
+    if (unknowns.slack_of[block.first_row + i] < 0) return false;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, columns);
+  piece.jacobian(Eigen::VectorXd::Zero(columns), A);
+  const Eigen::MatrixXd square = A.transpose() * A;
+  const Eigen::LLT<Eigen::MatrixXd> factor(square);
+  constexpr double kLeastPivot = 1e-3;  // of L, over the length of the column
+  if (factor.info() != Eigen::Success) return false;
+  const Eigen::ArrayXd pivots = factor.matrixLLT().diagonal();
+  return (pivots >= kLeastPivot * square.diagonal().array().sqrt()).all();
+}
+
+/// Variables of one stage that no piece joins to those of another, and that have bounds or rows that bound them: these
+/// make their block of the matrix positive, so that they can be eliminated by themselves.
 std::vector<bool> inputs(const nlp::Problem& problem, const Unknowns& unknowns) {
   std::vector<bool> out(problem.variable_count(), false);
-  for (int i = 0; i < unknowns.free_count(); ++i) {
-    const nlp::Stages at = problem.variable_stages(unknowns.free[i]);
-    const bool bounded = unknowns.lower[i] > -nlp::kInfinity || unknowns.upper[i] < nlp::kInfinity;
-    out[unknowns.free[i]] = bounded && at.first == at.last;
+  for (int i = 0; i < unknowns.free_count(); ++i)
+    out[unknowns.free[i]] = unknowns.lower[i] > -nlp::kInfinity || unknowns.upper[i] < nlp::kInfinity;
+  for (const nlp::Problem::Block& block : problem.blocks()) {
+    if (!bounds_all(block, unknowns)) continue;
+    for (int variable : block.piece->variables()) out[variable] = unknowns.index_of[variable] >= 0;
+  }
+  for (int variable : unknowns.free) {
+    const nlp::Stages at = problem.variable_stages(variable);
+    out[variable] = out[variable] && at.first == at.last;
   }
   for (const nlp::Problem::Block& block : problem.blocks()) {
     const nlp::Stages at = problem.piece_stages(*block.piece);
