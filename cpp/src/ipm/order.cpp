@@ -135,7 +135,9 @@ class Pairing {
 /// A stage whose equalities have too few variables to be solved for is eliminated with the one before, and so on: by
 /// itself its block of the matrix would be singular. So ends a horizon whose last state is fixed, until as many inputs
 /// have come together as it takes to reach it.
-void join_overdetermined(const nlp::Problem& problem, const Unknowns& unknowns, std::vector<std::vector<int>>& own) {
+/// sums: equalities that are eliminated ahead of their stage.
+void join_overdetermined(const nlp::Problem& problem, const Unknowns& unknowns,
+                         const std::vector<std::vector<int>>& sums, std::vector<std::vector<int>>& own) {
   const int n = unknowns.free_count();
   std::vector<std::vector<int>> columns(unknowns.equality_count());
   for (const nlp::Entry& entry : problem.jacobian_structure()) {
@@ -150,6 +152,7 @@ void join_overdetermined(const nlp::Problem& problem, const Unknowns& unknowns, 
   for (int row = 0; row < unknowns.equality_count(); ++row) paired[row] = !whole.add(row, 0);
   for (int stage = static_cast<int>(own.size()) - 1; stage > 0; --stage) {
     bool all = true;
+    for (int unknown : sums[stage]) paired[unknown - n] = pairing.add(unknown - n, stage);
     for (int unknown : own[stage])
       if (unknown >= n && !paired[unknown - n]) all &= paired[unknown - n] = pairing.add(unknown - n, stage);
     if (all || own[stage].size() + own[stage - 1].size() > kMaxJoined) continue;
@@ -158,9 +161,34 @@ void join_overdetermined(const nlp::Problem& problem, const Unknowns& unknowns, 
   }
 }
 
+/// Equalities that could be solved for inputs of their own, as an acceleration is a sum of contact forces: -1 or the
+/// stage of these. With the inputs eliminated, their block of the matrix is negative.
+std::vector<int> sums_of_inputs(const nlp::Problem& problem, const Unknowns& unknowns, const std::vector<bool>& input) {
+  std::vector<std::vector<int>> columns(unknowns.equality_count());
+  std::vector<int> out(unknowns.equality_count(), -1);
+  for (const nlp::Entry& entry : problem.jacobian_structure())
+    if (const int row = unknowns.equality_of[entry.row]; row >= 0 && input[entry.column])
+      columns[row].push_back(unknowns.index_of[entry.column]);
+  const std::vector<int> any_stage(unknowns.free_count(), 0);
+  Pairing pairing(columns, any_stage);
+  for (const nlp::Problem::Block& block : problem.blocks()) {
+    bool all = !block.is_cost();
+    for (int i = 0; i < block.piece->rows() && all; ++i) {
+      const int row = unknowns.equality_of[block.first_row + i];
+      all = row >= 0 && pairing.add(row, 0);
+    }
+    for (int i = 0; i < block.piece->rows() && all; ++i) {
+      const int row = unknowns.equality_of[block.first_row + i];
+      out[row] = problem.variable_stages(unknowns.free[columns[row].front()]).first;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
-std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, const Unknowns& unknowns) {
+std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, const Unknowns& unknowns,
+                                                bool sums_ahead) {
   const int n = unknowns.free_count();
   const std::vector<bool> input = inputs(problem, unknowns);
   int stages = 1;
@@ -202,10 +230,15 @@ std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, con
     }
     sets_of[stage][at].push_back(i);
   }
-  for (int i = 0; i < unknowns.equality_count(); ++i) own[row_stage[unknowns.equalities[i]]].push_back(n + i);
-  join_overdetermined(problem, unknowns, own);
+  std::vector<std::vector<int>> sums(stages);
+  std::vector<int> sum_at(unknowns.equality_count(), -1);
+  if (sums_ahead) sum_at = sums_of_inputs(problem, unknowns, input);
+  for (int i = 0; i < unknowns.equality_count(); ++i)
+    (sum_at[i] >= 0 ? sums[sum_at[i]] : own[row_stage[unknowns.equalities[i]]]).push_back(n + i);
+  join_overdetermined(problem, unknowns, sums, own);
   for (int stage = stages - 1; stage >= 0; --stage) {
     for (std::vector<int>& set : sets_of[stage]) out.push_back(std::move(set));
+    if (!sums[stage].empty()) out.push_back(std::move(sums[stage]));
     if (!own[stage].empty()) out.push_back(std::move(own[stage]));
   }
   return out;
