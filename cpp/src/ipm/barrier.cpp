@@ -84,8 +84,8 @@ void Barrier::start(Point& point, const Duals* duals) {
   for (int i = 0; i < unknowns_.slack_count(); ++i) point.t[n() + i] = inside(n() + i, point.inequalities[i]);
   functions_.derivatives(point, gradient_, kkt_);
   find_gaps(point);
-  lower_dual_ = mu_ / gap_lower_.array();
-  upper_dual_ = mu_ / gap_upper_.array();
+  lower_dual_ = mu_ * inverse_lower_;
+  upper_dual_ = mu_ * inverse_upper_;
   // Not those that make the gradient of the Lagrangian smallest, as is common: on walks they cost a quarter more
   // iterations, with Hessians that are less often positive.
   lambda_.setZero();
