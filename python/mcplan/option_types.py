@@ -184,7 +184,7 @@ class RhpOptions(TypedDict, total=False):
     lifted_psi: bool
     """Keep the relaxation's bounds psi as variables."""
     friction_rows: bool
-    """Friction as rows, not as edges of the pyramid."""
+    """Pyramids with faces across t1 and t2, not edges."""
     all_faces: bool
     """Keep faces of the reach polytopes that others imply."""
     intervals: int

@@ -22,6 +22,7 @@ constexpr double kFirstDamping = 1e-2;
 constexpr int kManyTrials = 6;
 constexpr double kShortStep = 0.01;  // of the way that is looked for, where nothing but a feasible point is
 constexpr int kManyShortSteps = 15;
+constexpr double kNoBound = 1e300;                   // a distance whose product with a multiplier of zero is zero
 constexpr double kLongStep = 0.5, kSmallGap = 10.0;  // of a step and of a duality gap after which a cost has settled
 
 }  // namespace
@@ -38,7 +39,15 @@ Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Or
   gradient_ = dual_ = right_a_ = dx_ = VectorXd::Zero(free);
   lambda_ = right_b_ = corrected_equalities_ = VectorXd::Zero(unknowns.equality_count());
   lower_dual_ = upper_dual_ = gap_lower_ = gap_upper_ = weights_ = VectorXd::Zero(all);
-  inverse_lower_ = inverse_upper_ = pull_ = VectorXd::Zero(all);
+  inverse_lower_ = inverse_upper_ = pull_ = base_lower_ = base_upper_ = VectorXd::Zero(all);
+  const auto finite = [](const VectorXd& bounds) { return bounds.array().isFinite().cast<double>().matrix(); };
+  has_lower_ = finite(unknowns.lower);
+  has_upper_ = finite(unknowns.upper);
+  for (int i = 0; i < all; ++i) {
+    bound_count_ += static_cast<int>(has_lower_[i] + has_upper_[i]);
+    base_lower_[i] = has_lower_[i] > 0.0 ? -unknowns.lower[i] : 1.0;
+    base_upper_[i] = has_upper_[i] > 0.0 ? unknowns.upper[i] : 1.0;
+  }
   slack_error_ = slack_work_ = slack_multipliers_ = corrected_slacks_ = VectorXd::Zero(unknowns.slack_count());
   for (Step* step : {&step_, &affine_, &corrected_}) {
     step->t = step->lower = step->upper = VectorXd::Zero(all);
@@ -75,8 +84,8 @@ void Barrier::start(Point& point, const Duals* duals) {
   for (int i = 0; i < unknowns_.slack_count(); ++i) point.t[n() + i] = inside(n() + i, point.inequalities[i]);
   functions_.derivatives(point, gradient_, kkt_);
   find_gaps(point);
-  lower_dual_ = mu_ / gap_lower_.array();
-  upper_dual_ = mu_ / gap_upper_.array();
+  lower_dual_ = mu_ * inverse_lower_;
+  upper_dual_ = mu_ * inverse_upper_;
   // Not those that make the gradient of the Lagrangian smallest, as is common: on walks they cost a quarter more
   // iterations, with Hessians that are less often positive.
   lambda_.setZero();
@@ -101,6 +110,8 @@ void Barrier::find_gaps(const Point& point) {
   gap_upper_ = unknowns_.upper - point.t;
   inverse_lower_ = gap_lower_.cwiseInverse();
   inverse_upper_ = gap_upper_.cwiseInverse();
+  gap_lower_ = gap_lower_.cwiseMin(kNoBound);
+  gap_upper_ = gap_upper_.cwiseMin(kNoBound);
   pull_ = inverse_upper_ - inverse_lower_;
 }
 
@@ -116,16 +127,13 @@ Barrier::Errors Barrier::errors(const Point& point, double mu) {
   };
   const double dual_scale = scale((lambda_.cwiseAbs().sum() + bounds) / std::max(1.0, count + lambda_.size()));
   const double bound_scale = scale(bounds / std::max(1.0, count));
+  const auto largest = [](const auto& values) { return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0; };
   Errors out;
-  out.dual = n() > 0 ? dual_.cwiseAbs().maxCoeff() / dual_scale : 0.0;
-  for (int i = 0; i < point.equalities.size(); ++i) out.primal = std::max(out.primal, std::abs(point.equalities[i]));
-  for (int i = 0; i < unknowns_.slack_count(); ++i) out.primal = std::max(out.primal, std::abs(point.slack_error(i)));
-  for (int i = 0; i < lower_dual_.size(); ++i) {
-    if (gap_lower_[i] < nlp::kInfinity)
-      out.complementarity = std::max(out.complementarity, std::abs(gap_lower_[i] * lower_dual_[i] - mu) / bound_scale);
-    if (gap_upper_[i] < nlp::kInfinity)
-      out.complementarity = std::max(out.complementarity, std::abs(gap_upper_[i] * upper_dual_[i] - mu) / bound_scale);
-  }
+  out.dual = largest(dual_) / dual_scale;
+  out.primal = std::max(largest(point.equalities), largest(point.slack_error()));
+  out.complementarity = std::max(largest(gap_lower_.cwiseProduct(lower_dual_) - mu * has_lower_),
+                                 largest(gap_upper_.cwiseProduct(upper_dual_) - mu * has_upper_)) /
+                        bound_scale;
   return out;
 }
 
@@ -249,23 +257,18 @@ void Barrier::probe(const Point& point) {
 
 /// Longest step that leaves 1 - tau of every distance to a bound.
 double Barrier::max_step(const VectorXd& d, double tau) const {
-  double alpha = 1.0;
-  for (int i = 0; i < d.size(); ++i) {
-    if (d[i] < 0.0 && -alpha * d[i] > tau * gap_lower_[i]) alpha = -tau * gap_lower_[i] / d[i];
-    if (d[i] > 0.0 && alpha * d[i] > tau * gap_upper_[i]) alpha = tau * gap_upper_[i] / d[i];
-  }
-  return alpha;
+  if (d.size() == 0) return 1.0;
+  const double fastest = (inverse_upper_.array() * d.array()).max(-inverse_lower_.array() * d.array()).maxCoeff();
+  return fastest > tau ? tau / fastest : 1.0;
 }
 
 double Barrier::max_dual_step(const Step& step, double tau) const {
-  double alpha = 1.0;
-  for (int i = 0; i < step.lower.size(); ++i) {
-    if (step.lower[i] < 0.0 && -alpha * step.lower[i] > tau * lower_dual_[i])
-      alpha = -tau * lower_dual_[i] / step.lower[i];
-    if (step.upper[i] < 0.0 && -alpha * step.upper[i] > tau * upper_dual_[i])
-      alpha = -tau * upper_dual_[i] / step.upper[i];
-  }
-  return alpha;
+  if (step.lower.size() == 0) return 1.0;
+  constexpr double kZero = 1e-300;  // for multipliers of bounds that are none
+  const double fastest = (-step.lower.array() / lower_dual_.array().max(kZero))
+                             .max(-step.upper.array() / upper_dual_.array().max(kZero))
+                             .maxCoeff();
+  return fastest > tau ? tau / fastest : 1.0;
 }
 
 /// Within all constraints, the cost as it was before a long step, and as the barrier leaves it: what it may still fall
@@ -275,11 +278,7 @@ bool Barrier::cost_settled(const Point& point, const Errors& now) {
                enough = options_.kernel.cost_tolerance * std::abs(point.cost);
   last_cost_ = point.cost;
   if (functions_.iterations() == 0 || alpha_ < kLongStep || now.primal > options_.constraint_tolerance) return false;
-  double gap = 0.0;
-  for (int i = 0; i < lower_dual_.size(); ++i) {
-    if (gap_lower_[i] < nlp::kInfinity) gap += gap_lower_[i] * lower_dual_[i];
-    if (gap_upper_[i] < nlp::kInfinity) gap += gap_upper_[i] * upper_dual_[i];
-  }
+  const double gap = gap_lower_.dot(lower_dual_) + gap_upper_.dot(upper_dual_);
   return change <= enough && gap <= kSmallGap * enough && functions_.violation(point) <= options_.constraint_tolerance;
 }
 
@@ -289,7 +288,7 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* dual
   start(point, duals);
   Step& step = step_;
   for (;;) {
-    for (int k = 0; k < slack_error_.size(); ++k) slack_error_[k] = point.slack_error(k);
+    slack_error_ = point.slack_error();
     const Errors now = errors(point, 0.0);
     log(point, now, step);
     if (now.largest() <= options_.tolerance && functions_.violation(point) <= options_.constraint_tolerance)

@@ -87,9 +87,12 @@ class Barrier {
   const bool probing_;  ///< the barrier parameter, from a start that no phase one has moved
   Filter filter_{nlp::kInfinity};
   Eigen::VectorXd gradient_, lambda_, lower_dual_, upper_dual_;
-  Eigen::VectorXd gap_lower_, gap_upper_;          ///< distances to the bounds, infinite where there is none
-  Eigen::VectorXd inverse_lower_, inverse_upper_;  ///< of the gaps
-  Eigen::VectorXd pull_;                           ///< gradient of the barrier's terms, over mu
+  Eigen::VectorXd gap_lower_, gap_upper_;          ///< distances to the bounds, kNoBound where there is none
+  Eigen::VectorXd inverse_lower_, inverse_upper_;  ///< of the gaps, zero where there is no bound
+  Eigen::VectorXd has_lower_, has_upper_;          ///< one where there is a bound, else zero
+  Eigen::VectorXd base_lower_, base_upper_;        ///< minus the lower and the upper bound, one where there is none
+  int bound_count_ = 0;
+  Eigen::VectorXd pull_;  ///< gradient of the barrier's terms, over mu
   // Workspace of the iterations.
   Eigen::VectorXd right_a_, right_b_, weights_, slack_error_, slack_work_, slack_multipliers_;
   Eigen::VectorXd dual_, dx_, corrected_equalities_, corrected_slacks_;

@@ -21,29 +21,17 @@ constexpr int kManyCutSteps = 3;
 }  // namespace
 
 double Barrier::average_complementarity() const {
-  double sum = 0.0;
-  int count = 0;
-  for (int i = 0; i < lower_dual_.size(); ++i) {
-    if (gap_lower_[i] < nlp::kInfinity) sum += gap_lower_[i] * lower_dual_[i], ++count;
-    if (gap_upper_[i] < nlp::kInfinity) sum += gap_upper_[i] * upper_dual_[i], ++count;
-  }
-  return count > 0 ? sum / count : 0.0;
+  return bound_count_ > 0 ? (gap_lower_.dot(lower_dual_) + gap_upper_.dot(upper_dual_)) / bound_count_ : 0.0;
 }
 
 /// Mehrotra's: how far complementarity falls along the step to mu = 0 says how far it should be asked to fall.
 double Barrier::probed_mu(const Point& point, double average) {
   probe(point);
   const double primal = max_step(affine_.t, 1.0), dual = max_dual_step(affine_, 1.0);
-  double sum = 0.0;
-  int count = 0;
-  for (int i = 0; i < lower_dual_.size(); ++i) {
-    if (gap_lower_[i] < nlp::kInfinity)
-      sum += (gap_lower_[i] + primal * affine_.t[i]) * (lower_dual_[i] + dual * affine_.lower[i]), ++count;
-    if (gap_upper_[i] < nlp::kInfinity)
-      sum += (gap_upper_[i] - primal * affine_.t[i]) * (upper_dual_[i] + dual * affine_.upper[i]), ++count;
-  }
-  if (count == 0 || average <= 0.0) return 0.0;
-  const double ratio = std::max(0.0, sum / count) / average;
+  if (bound_count_ == 0 || average <= 0.0) return 0.0;
+  const double sum = (gap_lower_ + primal * affine_.t).dot(lower_dual_ + dual * affine_.lower) +
+                     (gap_upper_ - primal * affine_.t).dot(upper_dual_ + dual * affine_.upper);
+  const double ratio = std::max(0.0, sum / bound_count_) / average;
   const double least = probing_ ? kLeastRatio : 0.0;
   return std::clamp(ratio * ratio * ratio, least, 1.0) * average;
 }

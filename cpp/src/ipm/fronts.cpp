@@ -176,9 +176,10 @@ void Fronts::find_places(const std::vector<int>& group_of, const std::vector<Pai
   }
 }
 
-Fronts::Inertia Fronts::factor() {
+Fronts::Inertia Fronts::factor(const std::vector<int>& most_negative) {
   Inertia total;
-  for (const Front& front : fronts_) {
+  for (std::size_t g = 0; g < fronts_.size(); ++g) {
+    const Front& front = fronts_[g];
     const int m = front.own;
     Block own(values_.data() + front.offset, m, m, Eigen::OuterStride<>(front.stride));
     int* pivots = pivots_.data() + front.first_column;
@@ -190,7 +191,8 @@ Fronts::Inertia Fronts::factor() {
     for (int k = 0; k < m && count.zero == 0; k += off_diagonal[k] == 0.0 ? 1 : 2)
       if (off_diagonal[k] == 0.0 && own(k, k) < 0.0 && -own(k, k) < least_pivots_[front.unknowns[pivots[k]]])
         ++total.zero;
-    if (total.zero > 0) return total;
+    total.too_many_negative = !most_negative.empty() && total.negative > most_negative[g];
+    if (total.zero > 0 || total.too_many_negative) return total;
     if (front.rest() == 0) continue;
     eliminate_rest(front);
     subtract_update(front);

@@ -38,10 +38,12 @@ class Fronts {
   /// Inertia of the matrix; zero: pivots too small to divide by.
   struct Inertia {
     int positive = 0, negative = 0, zero = 0;
+    bool too_many_negative = false;  ///< more than may be, and counted no further
   };
 
-  /// Factorise what is in values(), which is overwritten.
-  Inertia factor();
+  /// Factorise what is in values(), which is overwritten. most_negative: how many pivots may be negative up to each
+  /// front; empty: any number.
+  Inertia factor(const std::vector<int>& most_negative = {});
 
   /// Replace b by the solution.
   void solve(Eigen::VectorXd& b) const;

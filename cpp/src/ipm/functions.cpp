@@ -12,8 +12,6 @@ using Eigen::VectorXd;
 
 constexpr double kDiverged = 1e20;  // as Ipopt's diverging_iterates_tol
 
-double outside(double value, double lower, double upper) { return std::max({lower - value, value - upper, 0.0}); }
-
 /// Of the Jacobian's entries, as their rows are scaled.
 VectorXd entry_scales(const nlp::Problem& problem, const Unknowns& unknowns) {
   const std::vector<nlp::Entry>& entries = problem.jacobian_structure();
@@ -90,13 +88,18 @@ void Functions::evaluate(Point& point) {
 }
 
 double Functions::violation(const Point& point) const {
-  const int n = unknowns_.free_count();
+  const int n = unknowns_.free_count(), slacks = unknowns_.slack_count();
+  const auto outside = [](const auto& value, const auto& lower, const auto& upper) {
+    return (lower - value).array().max((value - upper).array());
+  };
   double worst = 0.0;
-  for (int i = 0; i < n; ++i) worst = std::max(worst, outside(point.t[i], unknowns_.lower[i], unknowns_.upper[i]));
-  for (int i = 0; i < unknowns_.equality_count(); ++i) worst = std::max(worst, std::abs(point.equalities[i]));
-  for (int i = 0; i < unknowns_.slack_count(); ++i)
-    worst = std::max(
-        worst, outside(point.inequalities[i], unknowns_.lower[n + i], unknowns_.upper[n + i]) / unknowns_.scale[i]);
+  if (n > 0)
+    worst = std::max(worst, outside(point.t.head(n), unknowns_.lower.head(n), unknowns_.upper.head(n)).maxCoeff());
+  if (unknowns_.equality_count() > 0) worst = std::max(worst, point.equalities.cwiseAbs().maxCoeff());
+  if (slacks > 0)
+    worst = std::max(worst, (outside(point.inequalities, unknowns_.lower.tail(slacks), unknowns_.upper.tail(slacks)) /
+                             unknowns_.scale.array())
+                                .maxCoeff());
   return worst;
 }
 

@@ -21,17 +21,10 @@ constexpr int kFewRows = 64;             // up to which a product is cheaper wit
 }  // namespace
 
 Kkt::Kkt(const nlp::Problem& problem, const Unknowns& unknowns)
-    : n_(unknowns.free_count()),
-      m_(unknowns.equality_count()),
-      fronts_(n_ + m_, elimination_order(problem, unknowns), structure(problem, unknowns, *this)) {
-  const std::vector<int>& places = fronts_.places();
-  std::size_t next = 0;
-  for (Place& place : hessian_places_) place.to = places[next++];
-  for (Place& place : equality_places_) place.to = places[next++];
+    : problem_(problem), unknowns_(unknowns), n_(unknowns.free_count()), m_(unknowns.equality_count()) {
+  pairs_ = structure();
   int widest = 0, longest = 0, weighted = 0, values = 0;
   for (Dense& block : dense_) {
-    block.first_place = static_cast<int>(next);
-    next += block.columns * (block.columns + 1) / 2;
     block.first_value = values;
     values += block.rows * block.width;
     widest = std::max(widest, block.width);
@@ -57,17 +50,61 @@ Kkt::Kkt(const nlp::Problem& problem, const Unknowns& unknowns)
   other_right_.resize(n_ + m_);
   left_a_.resize(n_);
   left_b_.resize(m_);
+  set_order(true);
 }
 
-std::vector<Fronts::Pair> Kkt::structure(const nlp::Problem& problem, const Unknowns& unknowns, Kkt& out) {
-  out.hessian_terms_.clear();
+void Kkt::set_order(bool sums_ahead) {
+  sums_ahead_ = sums_ahead;
+  std::vector<std::vector<int>> order = elimination_order(problem_, unknowns_, sums_ahead);
+  find_most_negative(order);
+  fronts_.emplace(n_ + m_, std::move(order), pairs_);
+  const std::vector<int>& places = fronts_->places();
+  std::size_t next = 0;
+  for (Place& place : hessian_places_) place.to = places[next++];
+  for (Place& place : equality_places_) place.to = places[next++];
+  for (Dense& block : dense_) {
+    block.first_place = static_cast<int>(next);
+    next += block.columns * (block.columns + 1) / 2;
+  }
+}
+
+/// The matrix of the variables and equalities of the first fronts has the Hessian's curvature along what these
+/// equalities leave free, later variables held. Where later equalities see none of these variables, all equalities
+/// leave it free: more negative pivots than equalities up to there say that the Hessian is not positive.
+void Kkt::find_most_negative(const std::vector<std::vector<int>>& order) {
+  std::vector<int> group_of(n_ + m_);
+  for (std::size_t g = 0; g < order.size(); ++g)
+    for (int unknown : order[g]) group_of[unknown] = static_cast<int>(g);
+  std::vector<int> open(order.size(), 0);  // changes of how many entries are of a variable before, an equality after
+  const auto see = [&](int equality, int variable) {
+    const int first = group_of[variable], last = group_of[n_ + equality];
+    if (first >= last) return;
+    ++open[first];
+    --open[last];
+  };
+  for (const Dense& dense : dense_equalities_)
+    for (const Dense::Entry& entry : dense.entries)
+      see(dense.targets[entry.to / dense.width], dense.variables[entry.to % dense.width]);
+  for (const Term& term : sparse_equalities_) see(term.row, term.column);
+  int equalities = 0, crossing = 0;
+  most_negative_.clear();
+  for (std::size_t g = 0; g < order.size(); ++g) {
+    crossing += open[g];
+    for (int unknown : order[g]) equalities += unknown >= n_;
+    most_negative_.push_back(crossing == 0 ? equalities : m_);
+  }
+}
+
+std::vector<Fronts::Pair> Kkt::structure() {
+  const nlp::Problem& problem = problem_;
+  const Unknowns& unknowns = unknowns_;
   std::vector<Fronts::Pair> pairs;
   for (std::size_t i = 0; i < problem.hessian_structure().size(); ++i) {
     const nlp::Entry& entry = problem.hessian_structure()[i];
     const int a = unknowns.index_of[entry.row], b = unknowns.index_of[entry.column];
     if (a < 0 || b < 0) continue;
-    out.hessian_terms_.push_back({static_cast<int>(i), a, b});
-    out.hessian_places_.push_back({static_cast<int>(i), 0});
+    hessian_terms_.push_back({static_cast<int>(i), a, b});
+    hessian_places_.push_back({static_cast<int>(i), 0});
     pairs.emplace_back(a, b);
   }
   for (std::size_t i = 0; i < problem.jacobian_structure().size(); ++i) {
@@ -75,7 +112,7 @@ std::vector<Fronts::Pair> Kkt::structure(const nlp::Problem& problem, const Unkn
     const int column = unknowns.index_of[entry.column];
     if (column < 0) continue;
     if (const int row = unknowns.equality_of[entry.row]; row >= 0) {
-      out.equality_places_.push_back({static_cast<int>(i), 0});
+      equality_places_.push_back({static_cast<int>(i), 0});
       pairs.emplace_back(column, unknowns.free_count() + row);
     }
   }
@@ -85,16 +122,16 @@ std::vector<Fronts::Pair> Kkt::structure(const nlp::Problem& problem, const Unkn
     Dense equalities = dense_block(block, unknowns.equality_of, unknowns, local);
     const std::size_t filled = equalities.entries.size();
     if (filled * kSparse > static_cast<std::size_t>(equalities.rows * equalities.width))
-      out.dense_equalities_.push_back(std::move(equalities));
+      dense_equalities_.push_back(std::move(equalities));
     else
       for (const Dense::Entry& entry : equalities.entries)
-        out.sparse_equalities_.push_back({entry.from, equalities.targets[entry.to / equalities.width],
-                                          equalities.variables[entry.to % equalities.width]});
+        sparse_equalities_.push_back({entry.from, equalities.targets[entry.to / equalities.width],
+                                      equalities.variables[entry.to % equalities.width]});
     Dense dense = dense_block(block, unknowns.slack_of, unknowns, local);
     if (dense.rows == 0) continue;
     for (int j = 0; j < dense.columns; ++j)
       for (int i = j; i < dense.columns; ++i) pairs.emplace_back(dense.variables[i], dense.variables[j]);
-    out.dense_.push_back(std::move(dense));
+    dense_.push_back(std::move(dense));
   }
   return pairs;
 }
@@ -149,8 +186,8 @@ void Kkt::add_condensed(const Dense& dense) {
   const int rows = dense.rows, columns = dense.columns, width = dense.width;
   const double* A = dense_values_.data() + dense.first_value;
   const int* slacks = dense.targets.data();
-  const int* place = fronts_.places().data() + dense.first_place;
-  double* values = fronts_.values();
+  const int* place = fronts_->places().data() + dense.first_place;
+  double* values = fronts_->values();
   if (rows <= kFewRows) {
     double* weighted = weighted_.data();
     for (int row = 0; row < rows; ++row)
@@ -177,25 +214,25 @@ void Kkt::add_condensed(const Dense& dense) {
 }
 
 void Kkt::assemble(double delta, double delta_c) {
-  fronts_.set_zero();
-  double* values = fronts_.values();
+  fronts_->set_zero();
+  double* values = fronts_->values();
   for (const Place& place : hessian_places_) values[place.to] += hessian_[place.from];
   for (const Place& place : equality_places_) values[place.to] += jacobian_[place.from];
-  const std::vector<int>& diagonal = fronts_.diagonal_places();
+  const std::vector<int>& diagonal = fronts_->diagonal_places();
   for (int i = 0; i < n_; ++i) values[diagonal[i]] += bound_weights_[i] + delta;
   for (int i = 0; i < m_; ++i) values[diagonal[n_ + i]] -= delta_c;
   for (const Dense& dense : dense_) add_condensed(dense);
   if (delta_c > 0.0)
-    fronts_.least_pivots().tail(m_).setZero();
+    fronts_->least_pivots().tail(m_).setZero();
   else
     find_least_pivots();
 }
 
 /// An equality's pivot is a sum of squares of its coefficients, each over about the variable's diagonal entry.
 void Kkt::find_least_pivots() {
-  const double* values = fronts_.values();
-  const std::vector<int>& diagonal = fronts_.diagonal_places();
-  VectorXd& least = fronts_.least_pivots();
+  const double* values = fronts_->values();
+  const std::vector<int>& diagonal = fronts_->diagonal_places();
+  VectorXd& least = fronts_->least_pivots();
   least.tail(m_).setZero();
   for (int i = 0; i < n_; ++i) left_a_[i] = kNoPivot / std::max(1.0, std::abs(values[diagonal[i]]));
   for (const Dense& dense : dense_equalities_) {
@@ -218,7 +255,13 @@ Kkt::Factor Kkt::factor(double delta, double delta_c) {
   delta_ = delta;
   delta_c_ = delta_c;
   assemble(delta, delta_c);
-  const Fronts::Inertia inertia = fronts_.factor();
+  Fronts::Inertia inertia = fronts_->factor(most_negative_);
+  if (sums_ahead_ && !inertia.too_many_negative && (inertia.zero > 0 || inertia.negative < m_)) {
+    set_order(false);
+    assemble(delta, delta_c);
+    inertia = fronts_->factor(most_negative_);
+  }
+  if (inertia.too_many_negative) return Factor::wrong_inertia;
   // Fewer negative pivots than equalities: these say the same twice, and rounding errors stand for what is zero.
   if (inertia.zero > 0 || inertia.negative < m_) return Factor::singular;
   return inertia.negative == m_ ? Factor::good : Factor::wrong_inertia;
@@ -292,7 +335,7 @@ void Kkt::residual(const VectorXd& a, const VectorXd& b, const VectorXd& dx, con
 void Kkt::solve_roughly(const Solution& first_right, const Solution& second_right, Solution& first, Solution& second) {
   right_ << first_right.dx, first_right.lambda;
   other_right_ << second_right.dx, second_right.lambda;
-  fronts_.solve(right_, other_right_);
+  fronts_->solve(right_, other_right_);
   first.dx = right_.head(n_);
   first.lambda = right_.tail(m_);
   second.dx = other_right_.head(n_);
@@ -301,7 +344,7 @@ void Kkt::solve_roughly(const Solution& first_right, const Solution& second_righ
 
 void Kkt::solve(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& lambda) {
   right_ << a, b;
-  fronts_.solve(right_);
+  fronts_->solve(right_);
   dx = right_.head(n_);
   lambda = right_.tail(m_);
   refine(a, b, dx, lambda);
@@ -318,7 +361,7 @@ void Kkt::refine(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& l
     if (!(residual_ > kSmallResidual) || !(residual_ < 0.5 * before) || i == kMaxRefinements) return;
     before = residual_;
     right_ << left_a_, left_b_;
-    fronts_.solve(right_);
+    fronts_->solve(right_);
     dx += right_.head(n_);
     lambda += right_.tail(m_);
   }

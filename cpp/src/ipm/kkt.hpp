@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "ipm/fronts.hpp"
@@ -32,7 +33,7 @@ class Kkt : public LinearSystem {
   void add_equalities_transposed(const Eigen::VectorXd& y, Eigen::VectorXd& out) const override;
   void multiply_equalities(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;  ///< out = J_E x
 
-  int largest_front() const { return fronts_.largest_front(); }
+  int largest_front() const { return fronts_->largest_front(); }
   double residual() const { return residual_; }  ///< of the last solve, over the right side's largest entry
 
  private:
@@ -59,9 +60,11 @@ class Kkt : public LinearSystem {
     int first_place = 0;  ///< of the lower triangle, column by column
   };
 
-  static std::vector<Fronts::Pair> structure(const nlp::Problem& problem, const Unknowns& unknowns, Kkt& out);
+  std::vector<Fronts::Pair> structure();
+  void set_order(bool sums_ahead);
   void assemble(double delta, double delta_c);
   void find_least_pivots();
+  void find_most_negative(const std::vector<std::vector<int>>& order);
   static Dense dense_block(const nlp::Problem::Block& block, const std::vector<int>& target_of,
                            const Unknowns& unknowns, std::vector<int>& local);
   void add_condensed(const Dense& dense);
@@ -71,12 +74,17 @@ class Kkt : public LinearSystem {
   void residual(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& dx,
                 const Eigen::VectorXd& lambda);
 
+  const nlp::Problem& problem_;
+  const Unknowns& unknowns_;
   int n_, m_;
   std::vector<Term> hessian_terms_;
   std::vector<Place> hessian_places_, equality_places_;
   std::vector<Dense> dense_, dense_equalities_;
   std::vector<Term> sparse_equalities_;  ///< those in none of these
-  Fronts fronts_;
+  std::vector<Fronts::Pair> pairs_;      ///< entries of the matrix
+  std::optional<Fronts> fronts_;
+  bool sums_ahead_ = false;         ///< until some of them say the same twice
+  std::vector<int> most_negative_;  ///< pivots up to each front, if the inertia of all is to be right
   const double *jacobian_ = nullptr, *hessian_ = nullptr;
   Eigen::VectorXd slack_weights_, bound_weights_;
   Eigen::VectorXd dense_values_;

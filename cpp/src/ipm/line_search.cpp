@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ipm/barrier.hpp"
+#include "ipm/chunk.hpp"
 
 namespace mcplan::ipm {
 namespace {
@@ -15,7 +16,8 @@ using Eigen::VectorXd;
 constexpr double kSwitchViolation = 1.1, kSwitchCost = 2.3, kSwitch = 1.0;  // s_theta, s_phi, delta
 constexpr double kArmijo = 1e-8;                                            // eta_phi
 constexpr double kRounding = 10.0 * 2.2e-16;
-constexpr double kLeastProduct = 1e-100;
+constexpr double kLeastProduct = 1e-200;
+constexpr int kFactors = 4;  // of a lower and an upper distance each
 constexpr int kMaxTrials = 30, kMaxCorrections = 4;
 constexpr double kCorrectionProgress = 0.99;  // kappa_soc
 constexpr double kDualReset = 1e10;           // kappa_Sigma
@@ -24,26 +26,43 @@ constexpr double kLeastTau = 0.99;            // tau_min
 }  // namespace
 
 double Barrier::theta(const Point& point) const {
-  double sum = point.equalities.cwiseAbs().sum();
-  for (int i = 0; i < unknowns_.slack_count(); ++i) sum += std::abs(point.slack_error(i));
-  return sum;
+  return point.equalities.cwiseAbs().sum() + point.slack_error().cwiseAbs().sum();
 }
 
 double Barrier::barrier_cost(const Point& point, double mu) const {
-  // The logarithm of products, as long as these are far from what a number can hold.
-  double logs = 0.0, product = 1.0;
-  const auto add = [&](double gap) {
-    if (!(gap > 0.0)) product = std::numeric_limits<double>::quiet_NaN();
-    product *= gap;
-    if (product > kLeastProduct && product < 1.0 / kLeastProduct) return;
-    logs += std::log(product);
-    product = 1.0;
+  // Logarithms of products of a few distances each, as long as these are far from what a number can hold. A bound that
+  // is none has a distance of one.
+  const int count = static_cast<int>(point.t.size());
+  const auto distances = [&](int i, Chunk& lower, Chunk& upper) {
+    const ConstChunkAt t(point.t.data() + i);
+    lower = ConstChunkAt(has_lower_.data() + i) * t + ConstChunkAt(base_lower_.data() + i);
+    upper = ConstChunkAt(base_upper_.data() + i) - ConstChunkAt(has_upper_.data() + i) * t;
   };
-  for (int i = 0; i < point.t.size(); ++i) {
-    if (unknowns_.lower[i] > -nlp::kInfinity) add(point.t[i] - unknowns_.lower[i]);
-    if (unknowns_.upper[i] < nlp::kInfinity) add(unknowns_.upper[i] - point.t[i]);
+  Chunk logs = Chunk::Zero(), least = Chunk::Ones(), lower, upper;
+  int i = 0;
+  for (; i + kFactors * kChunk <= count; i += kFactors * kChunk) {
+    Chunk product = Chunk::Ones();
+    for (int k = 0; k < kFactors; ++k) {
+      distances(i + k * kChunk, lower, upper);
+      least = least.min(lower).min(upper);
+      product *= lower * upper;
+    }
+    if (product.minCoeff() > kLeastProduct && product.maxCoeff() < 1.0 / kLeastProduct) {
+      logs += product.log();
+      continue;
+    }
+    for (int k = 0; k < kFactors; ++k) {
+      distances(i + k * kChunk, lower, upper);
+      logs += lower.log() + upper.log();
+    }
   }
-  return point.cost - mu * (logs + std::log(product));
+  double sum = logs.sum();
+  for (; i < count; ++i) {
+    const double low = has_lower_[i] * point.t[i] + base_lower_[i], high = base_upper_[i] - has_upper_[i] * point.t[i];
+    least[0] = std::min({least[0], low, high});
+    sum += std::log(low) + std::log(high);
+  }
+  return least.minCoeff() > 0.0 ? point.cost - mu * sum : std::numeric_limits<double>::quiet_NaN();
 }
 
 bool Barrier::acceptable(double theta_trial, double phi_trial, double alpha, bool& armijo) {
@@ -91,8 +110,7 @@ bool Barrier::correct(const Point& point, const Point& trial, double max_alpha, 
   const double tau = std::max(kLeastTau, 1.0 - mu_);
   VectorXd &c = corrected_equalities_, &g = corrected_slacks_;
   c = max_alpha * point.equalities + trial.equalities;
-  g = max_alpha * slack_error_;
-  for (int i = 0; i < g.size(); ++i) g[i] += trial.slack_error(i);
+  g = max_alpha * slack_error_ + trial.slack_error();
   double before = theta(trial);
   Step& corrected = corrected_;
   for (int i = 0; i < kMaxCorrections; ++i) {
@@ -112,8 +130,7 @@ bool Barrier::correct(const Point& point, const Point& trial, double max_alpha, 
     if (!(now <= kCorrectionProgress * before)) return false;
     before = now;
     c = alpha * c + trial_.equalities;
-    g *= alpha;
-    for (int k = 0; k < g.size(); ++k) g[k] += trial_.slack_error(k);
+    g = alpha * g + trial_.slack_error();
   }
   return false;
 }
@@ -125,11 +142,11 @@ void Barrier::take(Point& point, const Step& step, double alpha, double alpha_du
   upper_dual_ += alpha_dual * step.upper;
   std::swap(point, trial_);
   find_gaps(point);
-  for (int i = 0; i < point.t.size(); ++i) {
-    const double low = mu_ * inverse_lower_[i], high = mu_ * inverse_upper_[i];
-    lower_dual_[i] = std::clamp(lower_dual_[i], low / kDualReset, low * kDualReset);
-    upper_dual_[i] = std::clamp(upper_dual_[i], high / kDualReset, high * kDualReset);
-  }
+  const auto near = [this](VectorXd& dual, const VectorXd& inverse) {
+    dual = dual.cwiseMax(mu_ / kDualReset * inverse).cwiseMin(mu_ * kDualReset * inverse);
+  };
+  near(lower_dual_, inverse_lower_);
+  near(upper_dual_, inverse_upper_);
   functions_.derivatives(point, gradient_, kkt_);
 }
 

@@ -17,8 +17,7 @@ struct Point {
   Eigen::VectorXd equalities;    ///< minus their right side: zero where they hold
   Eigen::VectorXd inequalities;  ///< of which the slacks are to be the values
 
-  double slack_error(int i) const { return inequalities[i] - t[x_count + i]; }
-  int x_count = 0;  ///< free variables
+  auto slack_error() const { return inequalities - t.tail(inequalities.size()); }
 };
 
 /// Why a solve has to end now.

@@ -1,5 +1,6 @@
 #include "ipm/order.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <numeric>
 
@@ -30,14 +31,37 @@ bool has_inequality(const nlp::Problem::Block& block, const Unknowns& unknowns) 
   return false;
 }
 
-/// Variables of one stage that no piece joins to those of another, and that have a bound: it makes their block of the
-/// matrix positive, so that they can be eliminated by themselves.
+/// Whether a piece's inequalities bound all of its variables, as the rows of a friction cone do: a linear map A of full
+/// rank, whose A' D A is positive with any positive D.
+bool bounds_all(const nlp::Problem::Block& block, const Unknowns& unknowns) {
+  const nlp::Piece& piece = *block.piece;
+  const int rows = piece.rows(), columns = piece.size();
+  if (block.is_cost() || !piece.linear() || rows < columns) return false;
+  for (int i = 0; i < rows; ++i)
+    if (unknowns.slack_of[block.first_row + i] < 0) return false;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, columns);
+  piece.jacobian(Eigen::VectorXd::Zero(columns), A);
+  const Eigen::MatrixXd square = A.transpose() * A;
+  const Eigen::LLT<Eigen::MatrixXd> factor(square);
+  constexpr double kLeastPivot = 1e-3;  // of L, over the length of the column
+  if (factor.info() != Eigen::Success) return false;
+  const Eigen::ArrayXd pivots = factor.matrixLLT().diagonal();
+  return (pivots >= kLeastPivot * square.diagonal().array().sqrt()).all();
+}
+
+/// Variables of one stage that no piece joins to those of another, and that have bounds or rows that bound them: these
+/// make their block of the matrix positive, so that they can be eliminated by themselves.
 std::vector<bool> inputs(const nlp::Problem& problem, const Unknowns& unknowns) {
   std::vector<bool> out(problem.variable_count(), false);
-  for (int i = 0; i < unknowns.free_count(); ++i) {
-    const nlp::Stages at = problem.variable_stages(unknowns.free[i]);
-    const bool bounded = unknowns.lower[i] > -nlp::kInfinity || unknowns.upper[i] < nlp::kInfinity;
-    out[unknowns.free[i]] = bounded && at.first == at.last;
+  for (int i = 0; i < unknowns.free_count(); ++i)
+    out[unknowns.free[i]] = unknowns.lower[i] > -nlp::kInfinity || unknowns.upper[i] < nlp::kInfinity;
+  for (const nlp::Problem::Block& block : problem.blocks()) {
+    if (!bounds_all(block, unknowns)) continue;
+    for (int variable : block.piece->variables()) out[variable] = unknowns.index_of[variable] >= 0;
+  }
+  for (int variable : unknowns.free) {
+    const nlp::Stages at = problem.variable_stages(variable);
+    out[variable] = out[variable] && at.first == at.last;
   }
   for (const nlp::Problem::Block& block : problem.blocks()) {
     const nlp::Stages at = problem.piece_stages(*block.piece);
@@ -111,7 +135,9 @@ class Pairing {
 /// A stage whose equalities have too few variables to be solved for is eliminated with the one before, and so on: by
 /// itself its block of the matrix would be singular. So ends a horizon whose last state is fixed, until as many inputs
 /// have come together as it takes to reach it.
-void join_overdetermined(const nlp::Problem& problem, const Unknowns& unknowns, std::vector<std::vector<int>>& own) {
+/// sums: equalities that are eliminated ahead of their stage.
+void join_overdetermined(const nlp::Problem& problem, const Unknowns& unknowns,
+                         const std::vector<std::vector<int>>& sums, std::vector<std::vector<int>>& own) {
   const int n = unknowns.free_count();
   std::vector<std::vector<int>> columns(unknowns.equality_count());
   for (const nlp::Entry& entry : problem.jacobian_structure()) {
@@ -126,6 +152,7 @@ void join_overdetermined(const nlp::Problem& problem, const Unknowns& unknowns, 
   for (int row = 0; row < unknowns.equality_count(); ++row) paired[row] = !whole.add(row, 0);
   for (int stage = static_cast<int>(own.size()) - 1; stage > 0; --stage) {
     bool all = true;
+    for (int unknown : sums[stage]) paired[unknown - n] = pairing.add(unknown - n, stage);
     for (int unknown : own[stage])
       if (unknown >= n && !paired[unknown - n]) all &= paired[unknown - n] = pairing.add(unknown - n, stage);
     if (all || own[stage].size() + own[stage - 1].size() > kMaxJoined) continue;
@@ -134,9 +161,34 @@ void join_overdetermined(const nlp::Problem& problem, const Unknowns& unknowns, 
   }
 }
 
+/// Equalities that could be solved for inputs of their own, as an acceleration is a sum of contact forces: -1 or the
+/// stage of these. With the inputs eliminated, their block of the matrix is negative.
+std::vector<int> sums_of_inputs(const nlp::Problem& problem, const Unknowns& unknowns, const std::vector<bool>& input) {
+  std::vector<std::vector<int>> columns(unknowns.equality_count());
+  std::vector<int> out(unknowns.equality_count(), -1);
+  for (const nlp::Entry& entry : problem.jacobian_structure())
+    if (const int row = unknowns.equality_of[entry.row]; row >= 0 && input[entry.column])
+      columns[row].push_back(unknowns.index_of[entry.column]);
+  const std::vector<int> any_stage(unknowns.free_count(), 0);
+  Pairing pairing(columns, any_stage);
+  for (const nlp::Problem::Block& block : problem.blocks()) {
+    bool all = !block.is_cost();
+    for (int i = 0; i < block.piece->rows() && all; ++i) {
+      const int row = unknowns.equality_of[block.first_row + i];
+      all = row >= 0 && pairing.add(row, 0);
+    }
+    for (int i = 0; i < block.piece->rows() && all; ++i) {
+      const int row = unknowns.equality_of[block.first_row + i];
+      out[row] = problem.variable_stages(unknowns.free[columns[row].front()]).first;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
-std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, const Unknowns& unknowns) {
+std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, const Unknowns& unknowns,
+                                                bool sums_ahead) {
   const int n = unknowns.free_count();
   const std::vector<bool> input = inputs(problem, unknowns);
   int stages = 1;
@@ -178,10 +230,15 @@ std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, con
     }
     sets_of[stage][at].push_back(i);
   }
-  for (int i = 0; i < unknowns.equality_count(); ++i) own[row_stage[unknowns.equalities[i]]].push_back(n + i);
-  join_overdetermined(problem, unknowns, own);
+  std::vector<std::vector<int>> sums(stages);
+  std::vector<int> sum_at(unknowns.equality_count(), -1);
+  if (sums_ahead) sum_at = sums_of_inputs(problem, unknowns, input);
+  for (int i = 0; i < unknowns.equality_count(); ++i)
+    (sum_at[i] >= 0 ? sums[sum_at[i]] : own[row_stage[unknowns.equalities[i]]]).push_back(n + i);
+  join_overdetermined(problem, unknowns, sums, own);
   for (int stage = stages - 1; stage >= 0; --stage) {
     for (std::vector<int>& set : sets_of[stage]) out.push_back(std::move(set));
+    if (!sums[stage].empty()) out.push_back(std::move(sums[stage]));
     if (!own[stage].empty()) out.push_back(std::move(own[stage]));
   }
   return out;

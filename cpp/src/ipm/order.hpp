@@ -12,7 +12,9 @@ namespace mcplan::ipm {
 /// Stage by stage from the end of the horizon to its begin, as a Riccati recursion goes, each stage with the equalities
 /// that hold of it or lead to it. A variable that lasts several stages is carried to its first one. Ahead of a stage go
 /// its inputs that no transition sees (a contact force enters by its sum alone), each set of them that share a cost or
-/// an inequality as a small group: these are many, and a stage that held them all would cost their number cubed.
-std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, const Unknowns& unknowns);
+/// an inequality as a small group: these are many, and a stage that held them all would cost their number cubed. With
+/// `sums_ahead` the equalities that these inputs could be solved from come next, by themselves: as good, unless at some
+/// point they say the same twice of the inputs and something else of other variables.
+std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, const Unknowns& unknowns, bool sums_ahead);
 
 }  // namespace mcplan::ipm

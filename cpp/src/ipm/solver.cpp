@@ -23,7 +23,6 @@ using nlp::Outcome;
 Point point_at(const Unknowns& unknowns, const VectorXd& x) {
   Point out;
   out.x = x;
-  out.x_count = unknowns.free_count();
   out.t = VectorXd::Zero(unknowns.lower.size());
   for (int i = 0; i < unknowns.free_count(); ++i) out.t[i] = x[unknowns.free[i]];
   out.equalities = VectorXd::Zero(unknowns.equality_count());

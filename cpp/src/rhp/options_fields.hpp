@@ -53,7 +53,7 @@ struct Fields<rhp::Options> {
       field("transcription", &Options::transcription, "", "How the continuous motion becomes algebraic equations."),
       field("paper", &Options::paper, "", "Absolute CoM box and outer friction pyramid, as published."),
       field("lifted_psi", &Options::lifted_psi, "", "Keep the relaxation's bounds psi as variables."),
-      field("friction_rows", &Options::friction_rows, "", "Friction as rows, not as edges of the pyramid."),
+      field("friction_rows", &Options::friction_rows, "", "Pyramids with faces across t1 and t2, not edges."),
       field("all_faces", &Options::all_faces, "", "Keep faces of the reach polytopes that others imply."),
       field("intervals", &Options::intervals, "", "Intervals of a phase, 2 to 100.").within(2, 100),
       field("double_support_s", &Options::double_support_s, "s", "Duration of a phase on two feet: min, max.")

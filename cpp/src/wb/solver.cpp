@@ -17,7 +17,6 @@ constexpr double kElasticStart = 1e-3;  // beyond what a row is exceeded by at t
 
 ipm::Point point_at(const Layout& layout, const VectorXd& x) {
   ipm::Point out;
-  out.x_count = layout.variables;
   out.t = VectorXd::Zero(layout.variables + layout.rows);
   out.t.head(layout.variables) = x;
   out.equalities = VectorXd::Zero(layout.equalities);

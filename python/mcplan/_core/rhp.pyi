@@ -230,7 +230,7 @@ class Options:
     @property
     def friction_rows(self) -> bool:
         """
-        Friction as rows, not as edges of the pyramid.
+        Pyramids with faces across t1 and t2, not edges.
         """
     @friction_rows.setter
     def friction_rows(self, arg0: bool) -> None: ...

@@ -215,6 +215,11 @@ TEST_CASE("a probed barrier parameter falls at most to a tenth of the average co
   REQUIRE(kept.size() > 2);
   CHECK(kept[0] == doctest::Approx(-1.0));
   CHECK(kept[1] == doctest::Approx(-2.0).epsilon(0.03));
+  // A bound that is none has no part in the average.
+  Pulled open(kInfinity, 0.5);
+  const std::vector<double> one_sided = barriers(open.problem, VectorXd::Constant(1, 0.5), options);
+  REQUIRE(one_sided.size() > 1);
+  CHECK(one_sided[1] == doctest::Approx(-2.0).epsilon(0.03));
   options.kernel.distant_start = true;  // as sip solves: no floor
   const std::vector<double> free = barriers(pulled.problem, VectorXd::Constant(1, 0.5), options);
   REQUIRE(free.size() > 1);

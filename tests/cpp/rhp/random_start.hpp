@@ -9,7 +9,7 @@
 
 /// A start as in the experiments of Wang et al.: every variable uniform between its bounds. Those that have none here
 /// are drawn from the paper's boxes (CoM and footholds up to `far_m` ahead), accelerations within 10 m/s^2, forces up
-/// to 100 N along each edge of a friction pyramid.
+/// to 100 N along each direction of their variables.
 inline Eigen::VectorXd random_start(const mcplan::rhp::Horizon& horizon, unsigned seed, double far_m = 30.0) {
   std::mt19937 engine(seed);
   const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };

@@ -40,7 +40,7 @@ struct Options {
   Transcription transcription = Transcription::trapezoidal;
   bool paper = false;          ///< absolute CoM box, outer friction pyramid, no rest at the end, all as published
   bool lifted_psi = false;     ///< keep the bounds psi of the relaxation as variables instead of eliminating them
-  bool friction_rows = false;  ///< forces along t1, t2, n and friction as rows, instead of along the pyramid's edges
+  bool friction_rows = false;  ///< friction pyramids with faces across t1 and t2, instead of edges along them
   bool all_faces = false;      ///< keep faces of the reach polytopes that others imply
 
   int intervals = 7;                 ///< per phase

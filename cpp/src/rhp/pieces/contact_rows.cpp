@@ -39,11 +39,12 @@ void add_acceleration(nlp::Problem& problem, int acceleration, const std::vector
   problem.add_constraint(std::make_unique<nlp::LinearPiece>("acceleration", variables, A), weight, weight);
 }
 
-void add_friction(nlp::Problem& problem, const ContactPoint& point, double friction, int sides, bool outer) {
+void add_friction(nlp::Problem& problem, const ContactPoint& point, double friction, int sides, bool outer,
+                  bool turned) {
   const int rows = outer ? 4 : sides;
   MatrixXd A(rows, 3);
   for (int j = 0; j < rows; ++j) {
-    const double angle = 2.0 * M_PI * j / rows;
+    const double angle = 2.0 * M_PI * (turned && !outer ? j + 0.5 : j) / rows;
     A.row(j) << std::cos(angle), std::sin(angle), -friction * (outer ? 1.0 : std::cos(M_PI / sides));
   }
   for (double& entry : A.reshaped())

@@ -121,7 +121,95 @@ void MomentumRateWithin::hessian(const nlp::ConstVector& x, const nlp::ConstVect
   for (int i : {0, 1}) within.add_hessian(kControlPoints[i], axes_W_ * weights.segment<3>(3 * i), 1.0, H);
 }
 
-// x = (L0, R0, R1, v0, a0, a1, T); L(s) = L0 + h (integral of R), so that the cost is h sum_k w_k |L(s_k)|^2
+// x = (L0, R0, R1, v0, a0, a1, T). L(s) is a sum of five vectors times polynomials, whose Gram matrix G is constant:
+//
+//     V = (L0, h R0, h R1, m h beta, m h gamma),   cost = h sum_ij G_ij V_i . V_j = h sum_i V_i . M_i,   M = G V
+
+namespace {
+
+using Gram = Eigen::Matrix<double, 5, 5>;
+
+Gram gram_of_momentum() {
+  Gram out = Gram::Zero();
+  for (const auto& [s, weight] : kGauss) {
+    const RateCombination c = RateCombination::integral(s);
+    const Eigen::Matrix<double, 5, 1> at(1.0, c.of_R0, c.of_R1, c.of_beta, c.of_gamma);
+    out += weight * at * at.transpose();
+  }
+  return out;
+}
+
+/// The five vectors, and what the cost and its derivatives are made of.
+struct MomentumSquare {
+  static constexpr int kL0 = 0, kR0 = 3, kR1 = 6, kV0 = 9, kA0 = 12, kA1 = 15, kDuration = 18, kCount = 19;
+  static constexpr int kCurved = 10;  // the last ones, v0, a0, a1 and T, in which beta and gamma are not linear
+  using Five = Eigen::Matrix<double, 3, 5>;
+  using Curved = Eigen::Matrix<double, 3, kCurved>;
+
+  Vector3d R0, R1, v0, a0, a1, up = Vector3d::UnitZ();
+  double h, ratio, mass, gravity;
+  Vector3d twice, thrice, gamma;  ///< m h beta = m h^2 twice + m h^3 thrice, and m h^3 gamma
+  Gram G;
+  Five V, M;
+
+  MomentumSquare(const nlp::ConstVector& x, double ratio, double mass, double gravity)
+      : R0(x.segment<3>(kR0)),
+        R1(x.segment<3>(kR1)),
+        v0(x.segment<3>(kV0)),
+        a0(x.segment<3>(kA0)),
+        a1(x.segment<3>(kA1)),
+        h(ratio * x[kDuration]),
+        ratio(ratio),
+        mass(mass),
+        gravity(gravity),
+        twice(v0.cross(a1 - a0)),
+        thrice(gravity / 2.0 * a0.cross(up)),
+        gamma(a0.cross(a1) / 3.0 + gravity / 6.0 * (a1 - a0).cross(up)) {
+    static const Gram gram = gram_of_momentum();
+    G = gram;
+    V << x.segment<3>(kL0), h * R0, h * R1, mass * h * h * (twice + h * thrice), mass * h * h * h * gamma;
+    M.noalias() = V * G;
+  }
+
+  double square() const { return V.cwiseProduct(M).sum(); }
+
+  /// sum_i V_i' . M_i, half the gradient of the square, and the derivatives by T of its entries in v0, a0 and a1, with
+  /// M held.
+  struct Slope {
+    Eigen::Matrix<double, kCount, 1> of_all;
+    Vector3d of_v0, of_a0, of_a1;
+  };
+  Slope slope() const {
+    const Vector3d beta = M.col(3), bent = M.col(4), across = v0.cross(beta);
+    const Vector3d high_a0 = up.cross(gravity / 2.0 * beta - gravity / 6.0 * bent) + a1.cross(bent) / 3.0;
+    const Vector3d high_a1 = up.cross(gravity / 6.0 * bent) + bent.cross(a0) / 3.0;
+    const Vector3d of_v0 = (a1 - a0).cross(beta);
+    const double m2 = mass * h * h, m3 = m2 * h, mT = ratio * mass * h, mTT = 3.0 * mT * h;
+    Slope out;
+    out.of_all << M.col(0), h * M.col(1), h * M.col(2), m2 * of_v0, m2 * across + m3 * high_a0,
+        m3 * high_a1 - m2 * across,
+        ratio * (R0.dot(M.col(1)) + R1.dot(M.col(2))) + 2.0 * mT * twice.dot(beta) +
+            mTT * (thrice.dot(beta) + gamma.dot(bent));
+    out.of_v0 = 2.0 * mT * of_v0;
+    out.of_a0 = 2.0 * mT * across + mTT * high_a0;
+    out.of_a1 = mTT * high_a1 - 2.0 * mT * across;
+    return out;
+  }
+
+  /// Derivatives of the last two vectors by v0, a0, a1 and T.
+  std::array<Curved, 2> slopes() const {
+    const double m2 = mass * h * h, m3 = m2 * h;
+    std::array<Curved, 2> out;
+    const Eigen::Matrix3d by_v0 = skew(v0), by_up = skew(up);
+    out[0] << -m2 * skew(a1 - a0), -m2 * by_v0 - m3 * gravity / 2.0 * by_up, m2 * by_v0,
+        ratio * mass * h * (2.0 * twice + 3.0 * h * thrice);
+    out[1] << Eigen::Matrix3d::Zero(), m3 * (gravity / 6.0 * by_up - skew(a1) / 3.0),
+        m3 * (skew(a0) / 3.0 - gravity / 6.0 * by_up), 3.0 * ratio * mass * h * h * gamma;
+    return out;
+  }
+};
+
+}  // namespace
 
 MomentumSquareOverTime::MomentumSquareOverTime(const LinearForceInterval& i, double mass, double gravity)
     : Piece("momentum_cost",
@@ -133,55 +221,58 @@ MomentumSquareOverTime::MomentumSquareOverTime(const LinearForceInterval& i, dou
       gravity_(gravity) {}
 
 void MomentumSquareOverTime::values(const nlp::ConstVector& x, nlp::Vector f) const {
-  const Within within(x, 3, ratio_, mass_, gravity_);
-  f[0] = 0.0;
-  for (const auto& [s, weight] : kGauss) {
-    const Vector3d L = x.head<3>() + within.h * within.value(RateCombination::integral(s));
-    f[0] += within.h * weight * L.squaredNorm();
-  }
+  const MomentumSquare s(x, ratio_, mass_, gravity_);
+  f[0] = s.h * s.square();
 }
 
 void MomentumSquareOverTime::jacobian(const nlp::ConstVector& x, nlp::Matrix J) const {
-  const Within within(x, 3, ratio_, mass_, gravity_);
-  for (const auto& [s, weight] : kGauss) {
-    const RateCombination c = RateCombination::integral(s);
-    const Vector3d rise = within.value(c), L = x.head<3>() + within.h * rise;
-    const double factor = 2.0 * within.h * weight;
-    J.leftCols<3>() += factor * L.transpose();
-    J.rightCols<Within::kCount>() += factor * within.h * L.transpose() * within.jacobian(c);
-    J(0, 3 + Within::kDuration) += ratio_ * (factor * L.dot(rise) + weight * L.squaredNorm());
-  }
+  const MomentumSquare s(x, ratio_, mass_, gravity_);
+  J.row(0) = 2.0 * s.h * s.slope().of_all.transpose();
+  J(0, MomentumSquare::kDuration) += ratio_ * s.square();
 }
 
 void MomentumSquareOverTime::hessian(const nlp::ConstVector& x, const nlp::ConstVector& weights, nlp::Matrix H) const {
-  constexpr int kAll = 3 + Within::kCount, kPadded = kAll + 1;  // whole registers
-  const Within within(x, 3, ratio_, mass_, gravity_);
-  Eigen::Matrix<double, kPadded, kPadded> sum = Eigen::Matrix<double, kPadded, kPadded>::Zero();
-  auto inner = sum.block<Within::kCount, Within::kCount>(3, 3);
-  for (const auto& [s, weight] : kGauss) {
-    const RateCombination c = RateCombination::integral(s);
-    const Vector3d rise = within.value(c), L = x.head<3>() + within.h * rise;
-    const Within::Jacobian of_rate = within.jacobian(c);
-    Eigen::Matrix<double, kPadded, 3> of_L;  // transposed derivatives of L
-    of_L.topRows<3>().setIdentity();
-    of_L.middleRows<Within::kCount>(3) = within.h * of_rate.transpose();
-    of_L.row(3 + Within::kDuration) += ratio_ * rise.transpose();
-    of_L.bottomRows<1>().setZero();
+  using S = MomentumSquare;
+  const S s(x, ratio_, mass_, gravity_);
+  const double h = s.h, factor = 2.0 * weights[0] * h;
+  const S::Slope slope = s.slope();
+  const std::array<S::Curved, 2> slopes = s.slopes();
+  constexpr int kT = S::kCurved - 1;
+  const std::array<double, 3> of_h{1.0, h, h};  // V_i over L0, R0, R1
+  const std::array<Vector3d, 3> by_T{Vector3d::Zero(), ratio_ * s.R0, ratio_ * s.R1};
 
-    const double w = 2.0 * weights[0] * weight, factor = w * within.h;
-    const Eigen::Matrix<double, 3, kPadded> scaled = factor * of_L.transpose();
-    sum += of_L.lazyProduct(scaled);
-    within.add_hessian(c, L, factor * within.h, inner);
-    // of L itself, h times the integral of R: its duration's row beside that of the integral
-    const Eigen::Matrix<double, Within::kCount, 1> beside = factor * ratio_ * of_rate.transpose() * L;
-    inner.row(Within::kDuration) += beside.transpose();
-    inner(Within::kDuration, Within::kDuration) += beside[Within::kDuration];
-    // and of the factor h before |L|^2
-    const Eigen::Matrix<double, kPadded, 1> before = w * ratio_ * (of_L * L);
-    sum.row(3 + Within::kDuration) += before.transpose();
-    sum(3 + Within::kDuration, 3 + Within::kDuration) += before[3 + Within::kDuration];
+  // sum_ij G_ij V_i' . V_j': of V_j' its part in v0, a0, a1 and T, summed over j
+  const auto others = [&](int i) {
+    S::Curved out = s.G(i, 3) * slopes[0] + s.G(i, 4) * slopes[1];
+    out.col(kT) += s.G(i, 1) * by_T[1] + s.G(i, 2) * by_T[2];
+    return out;
+  };
+  Eigen::Matrix<double, S::kCurved, S::kCurved> curved = slopes[0].transpose().lazyProduct(others(3));
+  curved += slopes[1].transpose().lazyProduct(others(4));
+  for (int i = 0; i < 3; ++i) {
+    const S::Curved beside = others(i);
+    curved.row(kT) += by_T[i].transpose() * beside;
+    H.block<S::kCurved, 3>(S::kV0, 3 * i) = factor * of_h[i] * beside.transpose();
+    for (int j = 0; j <= i; ++j)
+      H.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(factor * s.G(i, j) * of_h[i] * of_h[j]);
+    if (i > 0) H.block<1, 3>(S::kDuration, 3 * i) += factor * ratio_ * s.M.col(i).transpose();
   }
-  H += sum.topLeftCorner<kAll, kAll>();
+  // sum_i M_i . V_i''
+  const Vector3d beta = s.M.col(3), bent = s.M.col(4);
+  const double m2 = s.mass * h * h;
+  curved.block<3, 3>(3, 0) -= m2 * skew(beta);
+  curved.block<3, 3>(6, 0) += m2 * skew(beta);
+  curved.block<3, 3>(6, 3) += m2 * h / 3.0 * skew(bent);
+  curved.row(kT).head<3>() += slope.of_v0.transpose();
+  curved.row(kT).segment<3>(3) += slope.of_a0.transpose();
+  curved.row(kT).segment<3>(6) += slope.of_a1.transpose();
+  curved(kT, kT) +=
+      ratio_ * ratio_ * s.mass * (2.0 * s.twice.dot(beta) + 6.0 * h * (s.thrice.dot(beta) + s.gamma.dot(bent)));
+  H.block<S::kCurved, S::kCurved>(S::kV0, S::kV0) = factor * curved;
+  // and of the factor h before the square
+  const double before = 2.0 * weights[0] * ratio_;
+  H.row(S::kDuration) += before * slope.of_all.transpose();
+  H(S::kDuration, S::kDuration) += before * slope.of_all[S::kDuration];
 }
 
 }  // namespace mcplan::rhp

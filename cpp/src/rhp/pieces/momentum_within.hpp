@@ -38,7 +38,7 @@ class MomentumRateWithin : public nlp::Piece {
   double ratio_, mass_, gravity_;
 };
 
-/// The integral of |L|^2 over the interval, exact: L is of degree 4, and Gauss's rule of five points of degree 9.
+/// The integral of |L|^2 over the interval, exact: L is of degree 4 in s.
 /// x = (L0, R0, R1, v0, a0, a1, T).
 class MomentumSquareOverTime : public nlp::Piece {
  public:

@@ -85,8 +85,8 @@ TEST_CASE("the edges of a pyramid span what its rows allow") {
       Random random(sides);
       const Placement placement = random_placement(random, 0);
       const Eigen::Matrix3Xd edges = pyramid_edges(placement, 0.3, sides, outer);
-      const nlp::Problem rows =
-          one_force([&](nlp::Problem& p, const ContactPoint& point) { add_friction(p, point, 0.3, sides, outer); });
+      const nlp::Problem rows = one_force(
+          [&](nlp::Problem& p, const ContactPoint& point) { add_friction(p, point, 0.3, sides, outer, true); });
       const int count = static_cast<int>(edges.cols());
       REQUIRE(count == (outer ? 4 : sides));
       for (int j = 0; j < count; ++j) {
@@ -94,15 +94,18 @@ TEST_CASE("the edges of a pyramid span what its rows allow") {
         CHECK(edge.z() == doctest::Approx(1.0));
         CHECK(edge.head<2>().norm() == doctest::Approx(outer ? 0.3 * std::sqrt(2.0) : 0.3));
         for (int k = 0; k < j; ++k) CHECK((edges.col(j) - edges.col(k)).norm() > 0.05);
-        // Sums of neighbours are as far out as a force may be; the rows bound the same polygon, perhaps turned by half
-        // a side.
-        if (outer) CHECK(violation(rows, edge) < 1e-12);
+        // Sums of neighbours are as far out as a force may be.
+        CHECK(violation(rows, edge) < 1e-12);
+        const int next = j + 1 < count ? j + 1 : 0;
+        const Vector3d between = 0.5 * (edge + placement.axes_W.transpose() * edges.col(next));
+        CHECK(holds(rows, between));
+        CHECK_FALSE(holds(rows, Vector3d(1.0001 * between.x(), 1.0001 * between.y(), between.z())));
       }
       for (int i = 0; i < 200; ++i) {
         const VectorXd share = (random.vector(count).array() + 1.0).matrix();
         const Vector3d f = placement.axes_W.transpose() * (edges * share);
         CHECK(f.head<2>().norm() <= (outer ? std::sqrt(2.0) : 1.0) * 0.3 * f.z() + 1e-12);
-        if (outer) CHECK(holds(rows, f));
+        CHECK(holds(rows, f));
       }
     }
 }
