@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "ddp/box_cut.hpp"
 #include "ddp/impossible.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
@@ -14,29 +15,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What is left of a planar polygon in the half-space x_axis <= limit, or >= limit for a sign of -1 (Sutherland and
-/// Hodgman). Points count as polygons.
-std::vector<Vector3d> cut(const std::vector<Vector3d>& polygon, int axis, double sign, double limit) {
-  std::vector<Vector3d> left;
-  for (std::size_t i = 0, n = polygon.size(); i < n; ++i) {
-    const Vector3d &a = polygon[i], &b = polygon[(i + 1) % n];
-    const double beyond_a = sign * (a[axis] - limit), beyond_b = sign * (b[axis] - limit);
-    if (beyond_a <= 0.0) left.push_back(a);
-    if ((beyond_a <= 0.0) != (beyond_b <= 0.0)) left.push_back(a + beyond_a / (beyond_a - beyond_b) * (b - a));
-  }
-  return left;
-}
-
 /// By how much the box has to grow on all sides to touch the polygon, both in frame B: their distance in the maximum
 /// norm. By bisection, never more than it is by rounding.
 double growth_to_touch(const std::vector<Vector3d>& polygon, const Vector3d& box_min, const Vector3d& box_max) {
   const auto touches = [&](double growth) {
-    std::vector<Vector3d> left = polygon;
-    for (int axis = 0; axis < 3; ++axis) {
-      left = cut(left, axis, 1.0, box_max[axis] + growth);
-      left = cut(left, axis, -1.0, box_min[axis] - growth);
-    }
-    return !left.empty();
+    const Vector3d grown = Vector3d::Constant(growth);
+    return !cut_to_box(polygon, box_min - grown, box_max + grown).empty();
   };
   if (touches(0.0)) return 0.0;
   double low = 0.0, high = (box_max - box_min).norm();
@@ -52,6 +36,15 @@ double growth_to_touch(const std::vector<Vector3d>& polygon, const Vector3d& box
 }
 
 }  // namespace
+
+double reach_allowed(const EndEffector& end, bool at_goal, double length) {
+  const Tolerances tolerances;
+  const double turned = 3.0 * tolerances.boundary + tolerances.orientation;
+  const double reach_m = (tolerances.reach + 2.0 * tolerances.dynamics) * length;
+  const double foothold_m = (at_goal ? std::sqrt(2.0) * tolerances.contact_distance : tolerances.stance) * length;
+  return reach_m + foothold_m + tolerances.boundary * length +
+         turned * (farthest_reach(end) + std::sqrt(3.0) * reach_m);
+}
 
 /// At its stance a plan has (`start`, `goal`) a CoM p within b of the stance's p*, differences of roll, pitch and yaw
 /// within b_r each, and the stance's contacts. The foothold x of one of them lies within c of its surface's plane
@@ -70,9 +63,7 @@ std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& r
   const Stance& stance = at_goal ? scene.goal : scene.start;
   const char* name = at_goal ? "goal" : "start";
   const ResolvedStance at = resolve_stance(scene, robot, stance, name);
-  const Tolerances tolerances;
   const double length = similarity_of(robot, scene.gravity).length;
-  const double turned = 3.0 * tolerances.boundary + tolerances.orientation;
   const Eigen::Matrix3d to_base = rotation_from_rpy(at.base_rpy).transpose();
   for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
     const EndEffector& end = robot.end_effectors[l];
@@ -82,10 +73,7 @@ std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& r
     for (const Vector3d& v : at_goal ? surface.vertices_W : std::vector<Vector3d>{at.end_effectors_W[l]})
       polygon_B.push_back(to_base * (v - at.com_W));
     const double beyond_m = growth_to_touch(polygon_B, end.reach_min_B, end.reach_max_B);
-    const double reach_m = (tolerances.reach + 2.0 * tolerances.dynamics) * length;
-    const double foothold_m = (at_goal ? std::sqrt(2.0) * tolerances.contact_distance : tolerances.stance) * length;
-    const double allowed_m =
-        reach_m + foothold_m + tolerances.boundary * length + turned * (farthest_reach(end) + std::sqrt(3.0) * reach_m);
+    const double allowed_m = reach_allowed(end, at_goal, length);
     if (!(beyond_m > allowed_m)) continue;
     return Impossible{std::string(name) + ": " + end.name + " would stand on " + text(surface.name) + ", " +
                           model::digits(beyond_m, "%.3g") + " m out of its reach from the CoM at " +

@@ -29,6 +29,9 @@ std::optional<Impossible> start_beyond_reach(const Scene& scene, const Robot& ro
 /// Of the goal, or of the start: the trunk would be in a solid. bound_trunk.cpp
 std::optional<Impossible> trunk_in_solid(const Scene& scene, const Robot& robot, bool at_goal);
 
+/// Of a contact of the goal, or of the start: the sole would be in a solid, wherever it may stand. bound_sole.cpp
+std::optional<Impossible> sole_in_solid(const Scene& scene, const Robot& robot, bool at_goal);
+
 /// The friction cones of all surfaces together hold nothing up. bound_friction.cpp
 std::optional<Impossible> slips_everywhere(const Scene& scene, const Robot& robot);
 
@@ -42,6 +45,10 @@ std::string flight_needed(const Scene& scene, const Robot& robot);
 /// The first condition that fails. From a `measured` start only what holds of the goal is asked for.
 std::optional<Impossible> why_impossible(const Scene& scene, const Robot& robot, bool measured,
                                          bool allow_flight = true);
+
+/// By how much [m] an end-effector's contact at its stance may be beyond the reach box there, as the checker has it, on
+/// a robot of this size (Similarity::length). bound_stance.cpp
+double reach_allowed(const EndEffector& end, bool at_goal, double length);
 
 /// Largest distance [m] of an end-effector's reach box from the CoM.
 double farthest_reach(const EndEffector& end);
