@@ -92,7 +92,7 @@ constexpr double kTurnAside = 0.05;
 /// turn in 18 phases at 0.08.
 constexpr double kTurnStride = 0.7854;
 /// The base turns to the way where it would otherwise look aside by more than this [rad] and it takes fewer phases by
-/// this ratio; below the second one nothing else is tried while there is a plan. Chosen.
+/// this ratio; below the second one nothing else is tried while there is a plan that does not strain the robot. Chosen.
 constexpr double kTurnToWay = 0.35, kFewerPhases = 0.8, kFarFewerPhases = 0.5;
 
 // The trunk.

@@ -360,8 +360,10 @@ Found WaysToGoal::search(Report& report) const {
   const auto [sure, otherwise, bars] = ways_of(routes, given, least);
   std::vector<Ahead> ahead = search_ahead(sure, report);
   for (std::size_t i = 0; i < sure.size(); ++i) try_way(sure[i], &ahead[i]);
-  for (const Way& way : otherwise)
-    if (!best || !best->best.ok()) try_way(way);
+  for (Way way : otherwise) {
+    way.brief = best && best->best.ok();
+    if (!way.brief || strains(*best->best.best())) try_way(way);
+  }
   if (bars && !best->best.ok()) {
     Way over{{}, false, least};
     over.over_bars = true;
