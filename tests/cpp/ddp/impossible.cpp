@@ -163,32 +163,6 @@ TEST_CASE("a goal above its ground is out of reach from where the legs, and all 
   CHECK(found->violation.tolerance == doctest::Approx(rise - 0.05));
 }
 
-TEST_CASE("a goal, or a start, whose soles would be in a solid is told, one beside it or on top of it is not") {
-  const Robot robot = scenes::humanoid44();
-  const auto in_box = [&](double x, double height, const std::string& who) {
-    Scene scene = ground_with_goal({1.5, 0, 0});
-    scene.surfaces.push_back(scenes::rectangle("box", x - 0.6, x + 0.6, -0.8, 0.8, height, who));
-    scene.surfaces.back().thickness = height;
-    return scene;
-  };
-  const auto told = sole_in_solid(in_box(1.5, 0.1, "hand"), robot, true);
-  REQUIRE(told);
-  CHECK(told->violation.name == "clearance");
-  CHECK(told->violation.surface == "box");
-  CHECK(told->message.find("inside the solid of \"box\"") != std::string::npos);
-  CHECK(sole_in_solid(in_box(0.0, 0.1, "hand"), robot, false));
-  CHECK_FALSE(sole_in_solid(in_box(0.0, 0.1, "hand"), robot, true));
-  CHECK_FALSE(sole_in_solid(in_box(2.3, 0.1, "hand"), robot, true));    // in front of it there is ground in reach
-  CHECK_FALSE(sole_in_solid(in_box(1.5, 0.025, "hand"), robot, true));  // no deeper than the checker takes
-  Scene above = in_box(1.5, 0.6, "hand");
-  above.surfaces.back().thickness = 0.1;  // a table: feet stand below it
-  CHECK_FALSE(sole_in_solid(above, robot, true));
-  Scene on_top = in_box(1.5, 0.1, "foot");
-  on_top.goal.contacts = {{"foot", "box"}};
-  on_top.goal.position_W.z() = 0.1;
-  CHECK_FALSE(sole_in_solid(on_top, robot, true));
-}
-
 TEST_CASE("a start has its footholds, not any point of its surface") {
   Scene scene = ground_with_goal({1.0, 0.0, 0.0});
   scene.start.position_W.z() = 0.16;
