@@ -41,6 +41,24 @@ class StateReader:
         self.robot = robot
         self._data = self.urdf_model.model.createData()
         self.mass = float(pin.computeTotalMass(self.urdf_model.model))
+        self._of_legs = self._joints_of_legs()
+
+    def _joints_of_legs(self) -> NDArray[np.bool_]:
+        """(nv,) which velocities are those of joints between the base and a foot."""
+        model = self.urdf_model.model
+        found = np.zeros(model.nv, bool)
+        for frame, end in zip(self.urdf_model.frames, self.robot.end_effectors, strict=True):
+            chain = model.supports[model.frames[frame].parentJoint] if end.kind == "foot" else []
+            for joint in list(chain)[2:]:  # after the universe and the base
+                found[model.joints[joint].idx_v : model.joints[joint].idx_v + model.joints[joint].nv] = True
+        return found
+
+    def _momentum_of_legs_W(self, configuration: Array, velocity: Array) -> Array:
+        """(3,) angular momentum about the CoM of legs that move as they do against a base that is still [kg m^2/s]."""
+        alone = np.where(self._of_legs, np.asarray(velocity, float), 0.0)
+        model, configuration = self.urdf_model.model, np.asarray(configuration, float)
+        momentum = self._pin.computeCentroidalMomentum(model, self._data, configuration, alone)
+        return np.asarray(momentum.angular) * self.robot.mass / self.mass
 
     def knot(self, configuration: Array, velocity: Array, standing: Sequence[bool]) -> Knot:
         """The state that the planner takes, world frame W.
@@ -84,8 +102,13 @@ class StateReader:
         in_contact: Sequence[bool],
         plan: Plan,
         plan_time_s: float,
+        *,
+        of_legs: bool = False,
     ) -> MeasuredState:
         """The state at a time, with the surfaces of the plan's scene that are touched.
+
+        The angular momentum is without that of legs which move against the base, unless they are asked for: plans of ddp turn
+        the base with all of it, and legs give theirs back when they land.
 
         Args:
             time_s: On the controller's clock.
@@ -93,8 +116,11 @@ class StateReader:
             plan: The plan under way, and `plan_time_s`, the time in it [s]: an end-effector in contact is on the surface
                 where the plan has it, now or next, if it is near to it, else on the one below. Hands that the plan never
                 uses are where the plan has them against the base, as no controller takes them there.
+            of_legs: The angular momentum is that of the whole robot, as in knot() and for rhp.
         """
         knot = self.knot(configuration, velocity, in_contact)
+        if not of_legs:
+            knot.angular_momentum_W = knot.angular_momentum_W - self._momentum_of_legs_W(configuration, velocity)
         t = min(max(plan_time_s, 0.0), float(plan.duration()))
         now = plan.at(t)
         sequence, phase = plan.contact_sequence(), int(now.phase)
