@@ -107,6 +107,54 @@ def test_a_goal_that_changes_while_walking_is_planned_to_from_its_time_on(plan):
     assert {tuple(f.plan.scene.goal.position_W[:2]) for f in run.plans} == {(2.0, 0.0), (1.2, 0.3)}
 
 
+@pytest.fixture(scope="module")
+def near():
+    """A walk of 0.4 m."""
+    scene = mp.load_scene("flat")
+    goal = scene.goal.__copy__()
+    goal.position_W = [0.4, 0.0, 0.0]
+    scene.goal = goal
+    return mp.plan(scene, "talos").plan
+
+
+def refuse(monkeypatch, refused):
+    """Let replans fail by whether they are refused: a function of how many were asked for and of the command."""
+    from mcplan.online import planner
+
+    asked = []
+
+    def replan(*arguments):
+        asked.append(arguments[4])
+        if refused(len(asked), arguments[4]):
+            raise mp.InvalidInput("test", "must not be planned")
+        return real(*arguments)
+
+    real = planner.replan
+    monkeypatch.setattr(planner, "replan", replan)
+
+
+@pytest.mark.slow
+def test_a_robot_that_had_to_stand_walks_on_to_its_goal(near, monkeypatch):
+    from mcplan.online.loop import STAND
+
+    refuse(monkeypatch, lambda count, command: count <= 14 and command != STAND)
+    run = mp.run(near, latency=LATENCY, stop_after_s=0.25, self_contacts=False)
+    assert run.online.stops >= 1 and not run.measures.fell
+    assert run.recording.com_W[-1, :2] == pytest.approx((0.4, 0.0), abs=0.02)
+    assert run.online.goal_off_m < 0.02 and run.followed and "to the end" in str(run)
+
+
+@pytest.mark.slow
+def test_a_robot_that_does_not_come_to_its_goal_says_so(near, monkeypatch):
+    from mcplan.online.loop import STAND
+
+    refuse(monkeypatch, lambda _, command: command != STAND)
+    run = mp.run(near, latency=LATENCY, stop_after_s=0.25, self_contacts=False)
+    off_m = np.linalg.norm(run.recording.com_W[-1, :2] - (0.4, 0.0))
+    assert not run.measures.fell and off_m > 0.2 and run.online.goal_off_m == pytest.approx(off_m, abs=1e-3)
+    assert not run.followed and f"{off_m:.2f} m off its goal" in str(run)
+
+
 @pytest.mark.parametrize(
     ("told", "field"),
     [
