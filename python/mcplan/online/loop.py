@@ -50,6 +50,8 @@ LONGEST_RATIO, LONGEST_S = 2.0, 5.0
 SEARCH_S = 0.25
 #: Force over the weight from which on a contact says how slippery its surface is.
 PRESSES_RATIO = 0.05
+#: Velocity to a side from which on wide reach is planned with first, for a robot of human size [m/s].
+ASIDE_M_S = 0.055
 #: Velocity of a robot that is to stand.
 STAND = (0.0, 0.0, 0.0)
 #: Height of the CoM of a robot of human size [m].
@@ -149,8 +151,8 @@ class Loop:
         if not np.isnan(limit_s):
             named["time_limit"] = limit_s
         planner = Planner(plan, 0.0, command=None, period_s=online.period_s, **named)
-        if online.wide_reach:
-            planner.robots.append(widened(plan.robot))
+        self.reaches = [plan.robot, *([widened(plan.robot)] if online.wide_reach else [])]
+        planner.robots = self.reaches
         return planner, Pace(online)
 
     @property
@@ -237,6 +239,7 @@ class Loop:
         # Near the goal the phases that are left are enough, unless the robot has to catch itself.
         few = reason in ("period", "touchdown") and self.planner.command is None and not self.aim.open
         named = {"phases_min": 1} if few else {}
+        self._choose_reach()
         self.planner.submit(state, **{**named, **self.aim.phases(com_W, heading)})
         update = self.planner.wait()
         assert update is not None
@@ -245,6 +248,13 @@ class Loop:
         self.tally.computed(update.took_s, latency_s, update.status, reason)
         longer = few and update.usable and update.plan is not None and _longer(update.plan, under_way.plan, t)
         self.pending = Pending(update, now_s + latency_s, longer)
+
+    def _choose_reach(self) -> None:
+        """Under a command to a side plan with wide reach first: boxes bound strides there more than joints do."""
+        command = self.planner.command
+        aside_m_s = ASIDE_M_S * np.sqrt(self.first_plan.robot.com_height / HUMAN_M)
+        aside = command is not None and abs(command[1]) > aside_m_s
+        self.planner.robots = self.reaches[::-1] if aside else self.reaches
 
     def _feel_slips(self, forces_W: Array) -> None:
         """Plan and control with less friction where an end-effector slips."""
