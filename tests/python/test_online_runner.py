@@ -76,9 +76,10 @@ def test_the_command_prints_what_track_prints_and_how_planning_went(plan, tmp_pa
     assert mp.track is not None and len(run.read_bytes()) > 1000
 
 
-def test_legs_that_swing_do_not_turn_the_base_in_replans():
-    """The first swings of the G1 carry momentum that its base does not have: every plan has to lead on to the goal."""
-    run = mp.run("flat", "g1", latency=LATENCY, duration=1.75, self_contacts=False)
+@pytest.mark.parametrize(("robot", "duration"), [("g1", 1.75), pytest.param("talos", 5.0, marks=pytest.mark.slow)])
+def test_legs_and_arms_that_swing_do_not_turn_the_base_in_replans(robot, duration):
+    """They carry momentum that the base does not have: every plan has to lead on to the goal."""
+    run = mp.run("flat", robot, latency=LATENCY, duration=duration, self_contacts=False)
     assert not run.measures.fell and run.online.replans_used == run.online.replans >= 15
     for followed in run.plans:
         assert followed.plan.knots[-1].com_W[:2] == pytest.approx((2.0, 0.0), abs=0.01)

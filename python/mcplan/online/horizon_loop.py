@@ -60,7 +60,7 @@ class HorizonLoop(Loop):
         made = first > self.horizons.first_step  # a foot that lands twice has made one step
         if reason is None or first >= self.horizons.steps or not (made or self.touchdowns.failed):
             return
-        state = self.reader.read(now_s, *read, told, under_way.plan, t, of_legs=True)
+        state = self.reader.read(now_s, *read, told, under_way.plan, t, of_joints=True)
         if self.ground.told(now_s) | self.ground.feel_heights(state, self.controller.speeds_m_s()):
             self._plan_on(self.ground.scene)
         self.horizons.submit(state)

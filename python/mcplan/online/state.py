@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 LEVEL = 0.5
 #: Height of a sole over a surface at which it may be on it [m].
 NEAR_M = 0.1
+#: Velocities of a configuration that are the base's; joints follow.
+BASE_SPEEDS = 6
 
 
 class StateReader:
@@ -41,23 +43,14 @@ class StateReader:
         self.robot = robot
         self._data = self.urdf_model.model.createData()
         self.mass = float(pin.computeTotalMass(self.urdf_model.model))
-        self._of_legs = self._joints_of_legs()
 
-    def _joints_of_legs(self) -> NDArray[np.bool_]:
-        """(nv,) which velocities are those of joints between the base and a foot."""
-        model = self.urdf_model.model
-        found = np.zeros(model.nv, bool)
-        for frame, end in zip(self.urdf_model.frames, self.robot.end_effectors, strict=True):
-            chain = model.supports[model.frames[frame].parentJoint] if end.kind == "foot" else []
-            for joint in list(chain)[2:]:  # after the universe and the base
-                found[model.joints[joint].idx_v : model.joints[joint].idx_v + model.joints[joint].nv] = True
-        return found
-
-    def _momentum_of_legs_W(self, configuration: Array, velocity: Array) -> Array:
-        """(3,) angular momentum about the CoM of legs that move as they do against a base that is still [kg m^2/s]."""
-        alone = np.where(self._of_legs, np.asarray(velocity, float), 0.0)
-        model, configuration = self.urdf_model.model, np.asarray(configuration, float)
-        momentum = self._pin.computeCentroidalMomentum(model, self._data, configuration, alone)
+    def _momentum_of_base_W(self, configuration: Array, velocity: Array) -> Array:
+        """(3,) angular momentum about the CoM of a robot that turns as its base does, with joints that are still [kg m^2/s]."""
+        still = np.array(velocity, float)
+        still[BASE_SPEEDS:] = 0.0
+        momentum = self._pin.computeCentroidalMomentum(
+            self.urdf_model.model, self._data, np.asarray(configuration, float), still
+        )
         return np.asarray(momentum.angular) * self.robot.mass / self.mass
 
     def knot(self, configuration: Array, velocity: Array, standing: Sequence[bool]) -> Knot:
@@ -103,12 +96,12 @@ class StateReader:
         plan: Plan,
         plan_time_s: float,
         *,
-        of_legs: bool = False,
+        of_joints: bool = False,
     ) -> MeasuredState:
         """The state at a time, with the surfaces of the plan's scene that are touched.
 
-        The angular momentum is without that of legs which move against the base, unless they are asked for: plans of ddp turn
-        the base with all of it, and legs give theirs back when they land.
+        The angular momentum is that of a robot which turns as its base does, unless that of joints is asked for, too: plans of
+        ddp turn the base with all of it, while legs and arms that swing give theirs back.
 
         Args:
             time_s: On the controller's clock.
@@ -116,11 +109,11 @@ class StateReader:
             plan: The plan under way, and `plan_time_s`, the time in it [s]: an end-effector in contact is on the surface
                 where the plan has it, now or next, if it is near to it, else on the one below. Hands that the plan never
                 uses are where the plan has them against the base, as no controller takes them there.
-            of_legs: The angular momentum is that of the whole robot, as in knot() and for rhp.
+            of_joints: The angular momentum is that of the whole robot, as in knot() and for rhp.
         """
         knot = self.knot(configuration, velocity, in_contact)
-        if not of_legs:
-            knot.angular_momentum_W = knot.angular_momentum_W - self._momentum_of_legs_W(configuration, velocity)
+        if not of_joints:
+            knot.angular_momentum_W = self._momentum_of_base_W(configuration, velocity)
         t = min(max(plan_time_s, 0.0), float(plan.duration()))
         now = plan.at(t)
         sequence, phase = plan.contact_sequence(), int(now.phase)
