@@ -76,6 +76,16 @@ def test_the_command_prints_what_track_prints_and_how_planning_went(plan, tmp_pa
     assert mp.track is not None and len(run.read_bytes()) > 1000
 
 
+@pytest.mark.parametrize(("robot", "duration"), [("g1", 1.75), pytest.param("talos", 5.0, marks=pytest.mark.slow)])
+def test_legs_and_arms_that_swing_do_not_turn_the_base_in_replans(robot, duration):
+    """They carry momentum that the base does not have: every plan has to lead on to the goal."""
+    run = mp.run("flat", robot, latency=LATENCY, duration=duration, self_contacts=False)
+    assert not run.measures.fell and run.online.replans_used == run.online.replans >= 15
+    for followed in run.plans:
+        assert followed.plan.knots[-1].com_W[:2] == pytest.approx((2.0, 0.0), abs=0.01)
+        assert max(abs(knot.base_rpy[2]) for knot in followed.plan.knots) < 0.06
+
+
 @pytest.mark.slow
 def test_a_goal_that_is_turned_is_reached_with_straight_knees(plan):
     goal = (0.4, 0.2, np.pi / 2)
@@ -96,6 +106,54 @@ def test_a_goal_that_changes_while_walking_is_planned_to_from_its_time_on(plan):
         end = followed.plan.at(followed.plan.duration())
         assert end.com_W[:2] == pytest.approx(goal, abs=0.02)
     assert {tuple(f.plan.scene.goal.position_W[:2]) for f in run.plans} == {(2.0, 0.0), (1.2, 0.3)}
+
+
+@pytest.fixture(scope="module")
+def near():
+    """A walk of 0.4 m."""
+    scene = mp.load_scene("flat")
+    goal = scene.goal.__copy__()
+    goal.position_W = [0.4, 0.0, 0.0]
+    scene.goal = goal
+    return mp.plan(scene, "talos").plan
+
+
+def refuse(monkeypatch, refused):
+    """Let replans fail by whether they are refused: a function of how many were asked for and of the command."""
+    from mcplan.online import planner
+
+    asked = []
+
+    def replan(*arguments):
+        asked.append(arguments[4])
+        if refused(len(asked), arguments[4]):
+            raise mp.InvalidInput("test", "must not be planned")
+        return real(*arguments)
+
+    real = planner.replan
+    monkeypatch.setattr(planner, "replan", replan)
+
+
+@pytest.mark.slow
+def test_a_robot_that_had_to_stand_walks_on_to_its_goal(near, monkeypatch):
+    from mcplan.online.loop import STAND
+
+    refuse(monkeypatch, lambda count, command: count <= 14 and command != STAND)
+    run = mp.run(near, latency=LATENCY, stop_after_s=0.25, self_contacts=False)
+    assert run.online.stops >= 1 and not run.measures.fell
+    assert run.recording.com_W[-1, :2] == pytest.approx((0.4, 0.0), abs=0.02)
+    assert run.online.goal_off_m < 0.02 and run.followed and "to the end" in str(run)
+
+
+@pytest.mark.slow
+def test_a_robot_that_does_not_come_to_its_goal_says_so(near, monkeypatch):
+    from mcplan.online.loop import STAND
+
+    refuse(monkeypatch, lambda _, command: command != STAND)
+    run = mp.run(near, latency=LATENCY, stop_after_s=0.25, self_contacts=False)
+    off_m = np.linalg.norm(run.recording.com_W[-1, :2] - (0.4, 0.0))
+    assert not run.measures.fell and off_m > 0.2 and run.online.goal_off_m == pytest.approx(off_m, abs=1e-3)
+    assert not run.followed and f"{off_m:.2f} m off its goal" in str(run)
 
 
 @pytest.mark.parametrize(
@@ -154,6 +212,15 @@ def test_commands_change_while_the_robot_walks(plan):
     )
     turns = [followed.plan.knots[-1].base_rpy[2] for followed in run.plans]
     assert abs(turns[2]) < 0.05 < turns[-1] and not run.measures.fell
+
+
+@pytest.mark.slow
+def test_a_velocity_to_the_side_is_walked_at(plan):
+    """Boxes of reach let Talos follow 0.075 m/s: its joints let it step farther out."""
+    run = mp.run(plan, command=(0.0, 0.1, 0.0), latency=LATENCY, duration=7.0, self_contacts=False).recording
+    late = run.times_s > 3.0
+    assert np.polyfit(run.times_s[late], run.com_W[late, 1], 1)[0] > 0.09
+    assert run.com_W[:, 2].min() > 0.95 * plan.robot.com_height
 
 
 def test_a_velocity_is_walked_at(plan):

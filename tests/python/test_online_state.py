@@ -60,6 +60,23 @@ def test_com_and_momentum_are_those_of_mujoco(reader):
         np.testing.assert_allclose(knot.angular_momentum_W, scale * data.subtree_angmom[root], atol=1e-8)
 
 
+def test_momentum_that_is_planned_from_is_the_same_however_joints_move(reader):
+    """Plans of ddp turn the base with all of it, and what swings gives its own back."""
+    (plan, _), rng, model = tracked.still(), np.random.default_rng(7), reader.urdf_model.model
+    feet = [True] * 2 + [False] * 2
+    for _ in range(5):
+        q, v = tracked.random_state(model, reader.urdf_model.neutral, rng)
+        still = v.copy()
+        still[6:] = 0.0
+        moving, resting = (reader.read(0.0, q, u, feet, plan, 0.0).knot.angular_momentum_W for u in (v, still))
+        np.testing.assert_array_equal(moving, resting)
+        np.testing.assert_allclose(resting, reader.knot(q, still, feet).angular_momentum_W, atol=1e-12)
+        reader.of_joints = True
+        asked = reader.read(0.0, q, v, feet, plan, 0.0).knot
+        reader.of_joints = False
+        np.testing.assert_array_equal(asked.angular_momentum_W, reader.knot(q, v, feet).angular_momentum_W)
+
+
 def test_what_stands_has_no_velocity_and_soles_head_where_they_do(reader):
     q, v = tracked.random_state(reader.urdf_model.model, reader.urdf_model.neutral, np.random.default_rng(6), speed=0.5)
     q[3:7] = Rotation.from_euler("z", 2.0).as_quat()

@@ -136,7 +136,7 @@ def run(
     A plan leads to the scene's goal, or on at a velocity (--command). While the robot follows it, a planner makes the next
     one from the measured state: every --period, at touchdowns, and when the robot has left the plan, as after a push. The
     simulated clock goes on while the planner computes; with --latency the same run is the same on every machine. The exit
-    code is 0 if the robot came to the end without a fall, 1 if it fell. Ctrl-C ends the run, the code is 130.
+    code is 0 if the robot came to its goal or through --duration without a fall, 1 if not. Ctrl-C ends the run, the code is 130.
 
     Example: mcplan run flat --robot talos --push 250,0.2,1.4,90 --latency 0.02 --html run.html
 

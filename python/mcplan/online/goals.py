@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from mcplan._core import Robot, Scene
+
+Goal = tuple[float, float, float]
 
 #: Length of a step over the height of the CoM, and turn of a step [rad], by which steps to a new goal are counted.
 STEP_RATIO, STEP_RAD = 0.2, 0.25
@@ -83,3 +85,68 @@ def phases_to(goal: tuple[float, float, float], place_W: NDArray[np.float64], he
     far_m = float(np.hypot(goal[0] - place_W[0], goal[1] - place_W[1]))
     steps = np.ceil(far_m / (STEP_RATIO * robot.com_height)) + np.ceil(abs(goal[2] - heading) / STEP_RAD)
     return int(min(2 * steps + MORE_PHASES, MOST_PHASES))
+
+
+class Aim:
+    """Where a robot walks to: the scene's goal, or one that is asked for instead.
+
+    Args:
+        scene: The scene of the plan that is under way at first, which leads to its goal.
+        robot: Who walks.
+
+    Attributes:
+        goal: The goal that holds instead of the scene's [m, m, rad], its heading counted as the robot's is once it is near.
+        open: No plan leads there yet, or none does any more.
+        steering: It is walked towards at a velocity first.
+    """
+
+    def __init__(self, scene: Scene, robot: Robot) -> None:
+        x, y, _ = scene.goal.position_W
+        self._of_scene: Goal = (float(x), float(y), float(scene.goal.yaw))
+        self._robot = robot
+        self._asked: Goal | None = None
+        self.goal: Goal | None = None
+        self.open = self.steering = False
+
+    def ask(self, goal: Goal | None, place_W: NDArray[np.float64], heading: float) -> bool:
+        """Aim at a goal [m, m, rad] from a place of the CoM and a heading [rad]; whether it is another than before."""
+        if goal is None or goal == self._asked:
+            return False
+        self._asked, self.goal, self.open = goal, goal, True
+        self.steering = is_elsewhere(goal, place_W, heading, self._robot)
+        return True
+
+    def stopped(self) -> None:
+        """The plan under way is a stand: what led to the goal is lost, and steps there have to be made anew."""
+        self.goal = self.goal or self._of_scene
+        self.open = self.steering = True
+
+    def velocity(self, place_W: NDArray[np.float64], heading: float) -> tuple[float, float, float] | None:
+        """The velocity, ahead, to the left [m/s] and turning [rad/s], to walk at now; None: to the goal itself.
+
+        From a goal that is near on `steering` is off, and the heading of the goal counted as the robot's is.
+        """
+        if not self.steering or self.goal is None:
+            return None
+        velocity = velocity_to(self.goal, place_W, heading, self._robot)
+        if velocity is None:
+            self.steering = False
+            self.goal = (*self.goal[:2], heading + turn_to(self.goal, heading))
+        return velocity
+
+    def phases(self, place_W: NDArray[np.float64], heading: float) -> dict[str, Any]:
+        """Options of a replan by name: how many phases lead there, where no plan does yet."""
+        if self.steering:
+            return {"horizon": STEERED_PHASES}
+        if self.open and self.goal is not None:
+            return {"phases_min": phases_to(self.goal, place_W, heading, self._robot)}
+        return {}
+
+    def on(self, scene: Scene) -> Scene:
+        """A scene with the goal that holds."""
+        return scene if self.goal is None else with_goal(scene, self.goal)
+
+    def off_m(self, place_W: NDArray[np.float64]) -> float:
+        """From a place of the CoM to the goal, on the level [m]."""
+        goal = self.goal or self._of_scene
+        return float(np.hypot(goal[0] - place_W[0], goal[1] - place_W[1]))

@@ -48,6 +48,7 @@ class HorizonLoop(Loop):
         self.horizons = HorizonPlanner(plan, 0.0, computing_s=computing_s(online), **limits(online))
         self.touchdowns = TouchdownPace(online)
         self.feet = [i for i, end in enumerate(plan.robot.end_effectors) if end.kind == "foot"]
+        self.reader.of_joints = True
         return self.horizons, self.touchdowns
 
     def _ask(self, now_s: float, read: tuple[Array, Array], standing: NDArray[np.bool_], touchdown: bool) -> None:

@@ -24,7 +24,7 @@ from mcplan.tracking.separation import Separation
 
 from .contacts import ContactFilter
 from .followed import FollowedReferences
-from .goals import STEERED_PHASES, is_elsewhere, phases_to, turn_to, velocity_to, with_goal
+from .goals import Aim
 from .known_ground import KnownGround
 from .measures import Tally
 from .options import OnlineOptions
@@ -50,6 +50,8 @@ LONGEST_RATIO, LONGEST_S = 2.0, 5.0
 SEARCH_S = 0.25
 #: Force over the weight from which on a contact says how slippery its surface is.
 PRESSES_RATIO = 0.05
+#: Velocity to a side from which on wide reach is planned with first, for a robot of human size [m/s].
+ASIDE_M_S = 0.055
 #: Velocity of a robot that is to stand.
 STAND = (0.0, 0.0, 0.0)
 #: Height of the CoM of a robot of human size [m].
@@ -131,11 +133,7 @@ class Loop:
             np.inf,
             False,
         )  # since when no plan could be followed; whether to come to a stand
-        self.asked: tuple[float, float, float] | None = None  # the goal that holds instead of the scene's
-        # The same, its heading counted as the robot's is once it is near.
-        self.goal: tuple[float, float, float] | None = None
-        self.goal_open = False  # whether no plan leads there yet
-        self.steering = False  # whether it is walked towards at a velocity first
+        self.aim = Aim(plan.scene, self.robot)
         self.late_s = np.inf  # since when an end-effector is late
         self.plans = [FollowedPlan(plan, 0.0, 0.0)]
         count = int(np.ceil(self.length_s / self.dt_s)) + 1
@@ -153,8 +151,8 @@ class Loop:
         if not np.isnan(limit_s):
             named["time_limit"] = limit_s
         planner = Planner(plan, 0.0, command=None, period_s=online.period_s, **named)
-        if online.wide_reach:
-            planner.robots.append(widened(plan.robot))
+        self.reaches = [plan.robot, *([widened(plan.robot)] if online.wide_reach else [])]
+        planner.robots = self.reaches
         return planner, Pace(online)
 
     @property
@@ -229,7 +227,7 @@ class Loop:
         )
         t = now_s - under_way.begins_s
         self._set_goal(now_s)
-        self.pace.new_goal = self.goal_open
+        self.pace.new_goal = self.aim.open
         reason = self.pace.due(now_s, touchdown, under_way.plan, t, com_W, velocity_W)
         if reason is None:
             return
@@ -239,13 +237,10 @@ class Loop:
         if self.ground.told(now_s) | self.ground.feel_heights(state, self.controller.speeds_m_s()):
             self._plan_on(self.ground.scene)
         # Near the goal the phases that are left are enough, unless the robot has to catch itself.
-        few = reason in ("period", "touchdown") and self.planner.command is None and not self.goal_open
+        few = reason in ("period", "touchdown") and self.planner.command is None and not self.aim.open
         named = {"phases_min": 1} if few else {}
-        if self.goal_open and self.goal is not None:
-            named = {"phases_min": phases_to(self.goal, com_W, heading, self.robot)}
-        if self.steering:
-            named = {"horizon": STEERED_PHASES}
-        self.planner.submit(state, **named)
+        self._choose_reach()
+        self.planner.submit(state, **{**named, **self.aim.phases(com_W, heading)})
         update = self.planner.wait()
         assert update is not None
         self.pace.asked(now_s)
@@ -253,6 +248,13 @@ class Loop:
         self.tally.computed(update.took_s, latency_s, update.status, reason)
         longer = few and update.usable and update.plan is not None and _longer(update.plan, under_way.plan, t)
         self.pending = Pending(update, now_s + latency_s, longer)
+
+    def _choose_reach(self) -> None:
+        """Under a command to a side plan with wide reach first: boxes bound strides there more than joints do."""
+        command = self.planner.command
+        aside_m_s = ASIDE_M_S * np.sqrt(self.first_plan.robot.com_height / HUMAN_M)
+        aside = command is not None and abs(command[1]) > aside_m_s
+        self.planner.robots = self.reaches[::-1] if aside else self.reaches
 
     def _feel_slips(self, forces_W: Array) -> None:
         """Plan and control with less friction where an end-effector slips."""
@@ -266,17 +268,16 @@ class Loop:
 
     def _set_goal(self, now_s: float) -> None:
         """Plan to another goal if one holds by now and no command does."""
-        goal = self.online.goal_at(now_s)
-        if goal is not None and goal != self.asked and self.online.command_at(now_s) is None:
-            self.asked, self.goal, self.goal_open = goal, goal, True
-            dynamics = self.controller.dynamics
-            heading = float(np.arctan2(dynamics.base_WB[1, 0], dynamics.base_WB[0, 0]))
-            self.steering = is_elsewhere(goal, dynamics.com_W, heading, self.robot)
+        if self.online.command_at(now_s) is not None:
+            return
+        dynamics = self.controller.dynamics
+        heading = float(np.arctan2(dynamics.base_WB[1, 0], dynamics.base_WB[0, 0]))
+        if self.aim.ask(self.online.goal_at(now_s), dynamics.com_W, heading):
             self._plan_on(self.ground.scene)
 
     def _plan_on(self, scene: Scene) -> None:
         """Plan on this ground from now on."""
-        self.planner.scene = scene if self.goal is None else with_goal(scene, self.goal)
+        self.planner.scene = self.aim.on(scene)
 
     def _command(self, now_s: float, com_W: Array, heading: float) -> tuple[float, float, float] | None:
         """The velocity that is asked for or leads towards a goal, or a stand where no plan has come for long."""
@@ -284,12 +285,10 @@ class Loop:
             self.tally.stops += not self.stopping
             self.stopping = True
         command = self.online.command_at(now_s)
-        self.steering &= command is None
-        if self.steering and self.goal is not None:
-            command = velocity_to(self.goal, com_W, heading, self.robot)
-            self.steering = command is not None
-            if not self.steering:
-                self.goal = (*self.goal[:2], heading + turn_to(self.goal, heading))
+        self.aim.steering &= command is None
+        if self.aim.steering:
+            command = self.aim.velocity(com_W, heading)
+            if command is None:
                 self._plan_on(self.ground.scene)
         return STAND if self.stopping else command
 
@@ -317,11 +316,15 @@ class Loop:
         if not update.usable or update.plan is None:
             self.failing_s = min(self.failing_s, update.begins_s)
             return
+        stands = update.plan_from == "stop" or self.planner.command == STAND
         self.failing_s, self.stopping = np.inf, False
         self.controller.set_plan(update.plan, update.begins_s)
         self.planner.take_over(update)
-        if self.planner.command is None and update.status in ("solved", "acceptable"):
-            self.goal_open = False
+        if self.online.command_at(now_s) is None and stands:
+            self.aim.stopped()
+            self._plan_on(self.ground.scene)
+        elif self.planner.command is None and update.status in ("solved", "acceptable"):
+            self.aim.open = False
         self.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
         self.tally.used += 1
 
@@ -341,7 +344,7 @@ class Loop:
         """Whether the plan under way has ended and its end was held."""
         if self.online.command_at(now_s) or not np.isnan(self.online.duration_s):
             return False
-        if self.goal_open or any(row[0] > now_s for row in (*self.online.goal, *self.online.command)):
+        if self.aim.open or any(row[0] > now_s for row in (*self.online.goal, *self.online.command)):
             return False
         return bool(now_s - self.plan.begins_s > self.plan.plan.duration() + self.options.hold_s)
 
@@ -368,10 +371,15 @@ class Loop:
             measures,
             self.options,
             interrupted,
-            self.tally.measures(self.ground.felt),
+            self.tally.measures(self.ground.felt, self._goal_off_m(n * self.dt_s)),
             self.online,
             tuple(self.plans),
         )
+
+    def _goal_off_m(self, now_s: float) -> float | None:
+        """From the CoM to the goal, on the level [m]; None: none is walked to."""
+        commanded = self.online.command_at(now_s) is not None or self.online.engine == "rhp"
+        return None if commanded else self.aim.off_m(self.controller.dynamics.com_W)
 
     def _end_posture(self) -> Array:
         """Where the plan under way ends; not a number where the robot could not take that posture up."""

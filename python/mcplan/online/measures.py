@@ -25,6 +25,7 @@ class OnlineMeasures:
             end-effector, within 5 cm.
         ground_felt: How often a surface was found to be higher, lower or more slippery than was known, by the feet on it.
         stops: How often the robot was brought to a stand since no plan came.
+        goal_off_m: From the CoM to the goal at the end, on the level [m]; None: a command held then, or the walk was one of rhp.
         statuses: How many computations had which status.
         reasons: How many were asked for by what: the period, a touchdown, the CoM or the capture point off the plan.
     """
@@ -39,6 +40,7 @@ class OnlineMeasures:
     contact_changes: int = 0
     ground_felt: int = 0
     stops: int = 0
+    goal_off_m: float | None = None
     statuses: dict[str, int] = field(default_factory=dict)
     reasons: dict[str, int] = field(default_factory=dict)
 
@@ -66,8 +68,8 @@ class Tally:
         self.statuses[status] += 1
         self.reasons[reason] += 1
 
-    def measures(self, ground_felt: int = 0) -> OnlineMeasures:
-        """The numbers; how often the ground was felt to be another, the loop knows."""
+    def measures(self, ground_felt: int = 0, goal_off_m: float | None = None) -> OnlineMeasures:
+        """The numbers; how often the ground was felt to be another, and how far the goal is, the loop knows."""
         took_ms = 1e3 * np.array(self.took_s)
         some = len(took_ms) > 0
         fixed = not np.isnan(self.fixed_latency_s)
@@ -82,6 +84,7 @@ class Tally:
             contact_changes=self.contact_changes,
             ground_felt=ground_felt,
             stops=self.stops,
+            goal_off_m=goal_off_m,
             statuses=dict(sorted(self.statuses.items())),
             reasons=dict(sorted(self.reasons.items())),
         )

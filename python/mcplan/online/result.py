@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
+import numpy as np
+
 from mcplan._core import Plan
 from mcplan.errors import InvalidInput
 from mcplan.files.plans import plan_from_bytes, plan_to_bytes
@@ -18,6 +20,8 @@ from .options import OnlineOptions, option_names
 
 #: What stands in files of a plan that was followed, beside the plan.
 _OF_PLANS = ("begins_s", "from_s", "took_s", "message")
+#: A goal is reached from this distance of the CoM on, over its nominal height.
+REACHED_RATIO = 0.1
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,17 @@ class RunResult(TrackingResult):
     online_options: OnlineOptions = field(default_factory=OnlineOptions)
     plans: tuple[FollowedPlan, ...] = ()
 
+    @property
+    def followed(self) -> bool:
+        """Whether the run went to its end without a fall and, where its length was not asked for, came to its goal."""
+        return self.completed and not self._short_of_goal()
+
+    def _short_of_goal(self) -> bool:
+        """Whether the robot had its time and stands away from its goal."""
+        reached_m = REACHED_RATIO * self.recording.plan.robot.com_height
+        off_m = self.online.goal_off_m
+        return off_m is not None and bool(np.isnan(self.online_options.duration_s)) and off_m > reached_m
+
     def _parts(self) -> RunParts:
         parts = super()._parts()
         own = {
@@ -76,7 +91,12 @@ class RunResult(TrackingResult):
     def __str__(self) -> str:
         recording = self.recording
         how = "replanned" if self.online_options.replanning else "one plan"
-        title = f"{recording.plan.scene.name}  {recording.simulated_robot.name}  {ending(self)} ({how})"
+        ended = ending(self)
+        if self.completed and self._short_of_goal():
+            ended = (
+                f"{self.online.goal_off_m:.2f} m off its goal after {self.measures.completed_s:.2f} s, without a fall"
+            )
+        title = f"{recording.plan.scene.name}  {recording.simulated_robot.name}  {ended} ({how})"
         rows = [row for row in rows_of(self) if row[0] != "base at the end"]
         return as_text(title, [*rows[:-2], *online_rows(self.online), *rows[-2:]])
 

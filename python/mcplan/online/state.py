@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 LEVEL = 0.5
 #: Height of a sole over a surface at which it may be on it [m].
 NEAR_M = 0.1
+#: Velocities of a configuration that are the base's; joints follow.
+BASE_SPEEDS = 6
 
 
 class StateReader:
@@ -31,16 +33,27 @@ class StateReader:
     Args:
         robot: A robot with a URDF.
         urdf_model: That URDF, read; None: it is read here.
+        of_joints: The angular momentum of read() is that of the whole robot, as in knot() and for rhp.
     """
 
-    def __init__(self, robot: Robot, urdf_model: UrdfModel | None = None) -> None:
+    def __init__(self, robot: Robot, urdf_model: UrdfModel | None = None, *, of_joints: bool = False) -> None:
         import pinocchio as pin  # type: ignore[import-untyped]
 
         self._pin = pin
         self.urdf_model = urdf_model or load_model(robot)
         self.robot = robot
+        self.of_joints = of_joints
         self._data = self.urdf_model.model.createData()
         self.mass = float(pin.computeTotalMass(self.urdf_model.model))
+
+    def _momentum_of_base_W(self, configuration: Array, velocity: Array) -> Array:
+        """(3,) angular momentum about the CoM of a robot that turns as its base does, with joints that are still [kg m^2/s]."""
+        still = np.array(velocity, float)
+        still[BASE_SPEEDS:] = 0.0
+        momentum = self._pin.computeCentroidalMomentum(
+            self.urdf_model.model, self._data, np.asarray(configuration, float), still
+        )
+        return np.asarray(momentum.angular) * self.robot.mass / self.mass
 
     def knot(self, configuration: Array, velocity: Array, standing: Sequence[bool]) -> Knot:
         """The state that the planner takes, world frame W.
@@ -87,6 +100,9 @@ class StateReader:
     ) -> MeasuredState:
         """The state at a time, with the surfaces of the plan's scene that are touched.
 
+        The angular momentum is that of a robot which turns as its base does, unless the reader is `of_joints`: plans of ddp
+        turn the base with all of it, while legs and arms that swing give theirs back.
+
         Args:
             time_s: On the controller's clock.
             configuration, velocity, in_contact: As for knot().
@@ -95,6 +111,8 @@ class StateReader:
                 uses are where the plan has them against the base, as no controller takes them there.
         """
         knot = self.knot(configuration, velocity, in_contact)
+        if not self.of_joints:
+            knot.angular_momentum_W = self._momentum_of_base_W(configuration, velocity)
         t = min(max(plan_time_s, 0.0), float(plan.duration()))
         now = plan.at(t)
         sequence, phase = plan.contact_sequence(), int(now.phase)
