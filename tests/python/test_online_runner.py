@@ -340,6 +340,8 @@ def test_saved_runs_keep_their_planning(plan, tmp_path):
             other.message,
         )
         assert one.plan.knots == other.plan.knots
+    dataclasses.replace(run, plans=run.plans * 100).save(tmp_path / "long.npz")
+    assert len(RunResult.load(tmp_path / "long.npz").plans) == 100 * len(run.plans)
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from mcplan.files.reading import MAX_PLAN_INFLATED, size_text
 _RULE = "must be an .npz or .json file written by mcplan"
 _NO_ARCHIVE = "no zip archive, or an incomplete one"
 _MAX_MEMBERS = 64  # arrays of an archive
-_MAX_DIRECTORY = 256 * _MAX_MEMBERS  # bytes of the list of members
+_MEMBER_BYTES = 256  # of an array in the list of members, at most
 _MAX_HEADER = 4 * 1024 * 1024  # bytes of JSON
 _MAX_NUMPY_HEADER = 1000  # bytes that describe an array
 _MAX_AXES = 4
@@ -44,7 +44,7 @@ def as_json(value: Any) -> Any:
     return value
 
 
-def read_arrays(data: bytes, most: int = MAX_PLAN_INFLATED) -> dict[str, np.ndarray]:
+def read_arrays(data: bytes, most: int = MAX_PLAN_INFLATED, most_arrays: int = _MAX_MEMBERS) -> dict[str, np.ndarray]:
     """The arrays of an archive.
 
     What the archive says of its sizes is added up first, then each array is inflated no further than it says, and its
@@ -53,15 +53,16 @@ def read_arrays(data: bytes, most: int = MAX_PLAN_INFLATED) -> dict[str, np.ndar
     Args:
         data: Content of the file.
         most: Bytes of all arrays together, at most.
+        most_arrays: How many arrays there are, at most.
 
     Raises:
         InvalidPlan: No such archive, a damaged one, one with arrays of anything but numbers, or too large.
     """
-    _require_directory(data)
+    _require_directory(data, most_arrays)
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
-            _require_sizes(members, most)
+            _require_sizes(members, most, most_arrays)
             arrays: dict[str, np.ndarray] = {}
             for member in members:
                 name = member.filename.removesuffix(".npy")
@@ -76,20 +77,20 @@ def read_arrays(data: bytes, most: int = MAX_PLAN_INFLATED) -> dict[str, np.ndar
         raise InvalidPlan("", _RULE, _first_line(found)) from None
 
 
-def _require_directory(data: bytes) -> None:
+def _require_directory(data: bytes, most_arrays: int) -> None:
     """A directory at the end of the file that is small enough to be read, before it is."""
     end = data.rfind(b"PK\x05\x06")
     if end < 0 or len(data) < end + 22 or not zipfile.is_zipfile(io.BytesIO(data)):
         kind = file_kind(data)
         raise InvalidPlan("", _RULE, kind if kind not in ("", "an .npz archive", "a zip archive") else _NO_ARCHIVE)
     size = int.from_bytes(data[end + 12 : end + 16], "little")
-    if size > _MAX_DIRECTORY or data[max(0, end - 20) :].startswith(b"PK\x06\x07"):
-        raise InvalidPlan("", f"may have {_MAX_MEMBERS} arrays at most", f"a directory of {size} bytes")
+    if size > _MEMBER_BYTES * most_arrays or data[max(0, end - 20) :].startswith(b"PK\x06\x07"):
+        raise InvalidPlan("", f"may have {most_arrays} arrays at most", f"a directory of {size} bytes")
 
 
-def _require_sizes(members: list[zipfile.ZipInfo], most: int) -> None:
-    if len(members) > _MAX_MEMBERS:
-        raise InvalidPlan("", f"may have {_MAX_MEMBERS} arrays at most", str(len(members)))
+def _require_sizes(members: list[zipfile.ZipInfo], most: int, most_arrays: int) -> None:
+    if len(members) > most_arrays:
+        raise InvalidPlan("", f"may have {most_arrays} arrays at most", str(len(members)))
     for member in members:
         if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
             raise InvalidPlan(member.filename[:_MAX_NAME], "must be stored or deflated", str(member.compress_type))

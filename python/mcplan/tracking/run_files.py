@@ -33,6 +33,8 @@ from mcplan.files.reading import MAX_PLAN_INFLATED, MAX_RUN, MAX_RUN_INFLATED, M
 from .options import Gains, Options, Push
 
 FORMAT = 1
+#: Arrays of a file, at most: one for each plan that was followed, some ten a second, and those of the recording.
+MAX_ARRAYS = 16384
 RUN, PLANAR_RUN = whole_body_plans.RUN_KINDS
 #: Fields of recordings that are no arrays: those of the header, and what the plan's file contains.
 _OTHERS = {"plan", "robot", "joints", "end_effectors", "fell_at_s", "left_plan_at_s", "touches", "true_scene"}
@@ -121,7 +123,8 @@ def load_run(
     if otherwise is not None and is_json(data, path):
         return otherwise(path)
     try:
-        arrays = read_arrays(data, min(MAX_RUN_INFLATED, MAX_RUN_RATIO * len(data) + MAX_PLAN_INFLATED))
+        inflated = min(MAX_RUN_INFLATED, MAX_RUN_RATIO * len(data) + MAX_PLAN_INFLATED)
+        arrays = read_arrays(data, inflated, MAX_ARRAYS)
         header = read_header(arrays)
         kind = header.get("kind")
         if not isinstance(kind, str) or kind not in (RUN, PLANAR_RUN):
