@@ -55,6 +55,8 @@ std::optional<Impossible> sole_in_solid(const Scene& scene, const Robot& robot, 
   const Tolerances tolerances;
   const double length = similarity_of(robot, scene.gravity).length, foot_m = kFootHeight * length;
   const double allowed_m = (kSoleDepth + tolerances.clearance) * length;
+  std::vector<Solid> solids;
+  for (const Surface& surface : scene.surfaces) solids.push_back({Polygon(surface.vertices_W), surface.thickness});
   for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
     const EndEffector& end = robot.end_effectors[l];
     if (at.contacts[l] < 0 || end.com_reach.given()) continue;
@@ -63,11 +65,11 @@ std::optional<Impossible> sole_in_solid(const Scene& scene, const Robot& robot, 
         at_goal ? footholds(own, end, at, reach_allowed(end, true, length)) : std::vector{at.end_effectors_W[l]};
     const double beside_m =
         (at_goal ? std::sqrt(2.0) * tolerances.contact_distance + tolerances.slip : tolerances.stance) * length;
-    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    for (std::size_t i = 0; i < solids.size(); ++i) {
       if (static_cast<int>(i) == at.contacts[l]) continue;
-      const Solid solid{Polygon(scene.surfaces[i].vertices_W), scene.surfaces[i].thickness};
       double least = std::numeric_limits<double>::infinity();
-      for (const Vector3d& place : places) least = std::min(least, depth_below_top(solid, place, foot_m - beside_m));
+      for (const Vector3d& place : places)
+        least = std::min(least, depth_below_top(solids[i], place, foot_m - beside_m));
       const double depth_m = std::sin(M_PI / 3.0) * (least - beside_m) - 0.5 * foot_m;
       if (places.empty() || !(depth_m > allowed_m)) continue;
       return Impossible{std::string(name) + ": " + end.name + " would stand on " + text(own.name) +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 /// The numbers that steer the search and are no options, each with where it comes from: "measured" points to the page
@@ -90,7 +91,7 @@ constexpr double kLookAlong = 0.08, kTurnShare = 0.2;
 constexpr double kTurnAside = 0.05;
 /// What a stride turns a foot by at most [rad], where its joints do not say less. Measured: humanoid44 turns by half a
 /// turn in 18 phases at 0.08.
-constexpr double kTurnStride = 0.7854;
+constexpr double kTurnStride = 0.25 * M_PI;
 /// The base turns to the way where it would otherwise look aside by more than this [rad] and it takes fewer phases by
 /// this ratio; below the second one nothing else is tried while there is a plan that does not strain the robot. Chosen.
 constexpr double kTurnToWay = 0.35, kFewerPhases = 0.8, kFarFewerPhases = 0.5;

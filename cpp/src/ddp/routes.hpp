@@ -34,8 +34,8 @@ struct Routes {
 };
 
 /// Looks for up to three detours, on different sides of what is in the way; where that can be climbed, for up to two on
-/// ground so level that nothing is. Of scenes where nothing stands at both
-/// start and goal nothing is known: they are straight. `sole_inside` is the search's option.
+/// ground so level that nothing is. Of scenes where nothing stands at both start and goal nothing is known: they are
+/// straight. `sole_inside` is the search's option.
 Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside = -1.0);
 
 /// Point at this share of a route's length. Its corners are rounded, its ends are not.
