@@ -72,7 +72,6 @@ SCENE_BREAKS: list[Break] = [
     (("gravity",), True, "gravity", "must be a number"),
     (("gravitiy",), 9.8, "gravitiy", "no such key. Did you mean 'gravity'? Keys: name, description, gravity"),
     (("name",), 7, "name", "must be a string"),
-    (("name",), "", "name", "must not be empty"),
     (("description",), [], "description", "must be a string"),
     (("surfaces",), DELETE, "surfaces", "is required"),
     (("surfaces",), [], "surfaces", "needs at least 1 entry"),

@@ -55,6 +55,16 @@ def test_a_plan_comes_back_exactly(plan, tmp_path):
         assert plan_to_bytes(other) == plan_to_bytes(plan)
 
 
+@pytest.mark.parametrize("ending", [".npz", ".json"])
+def test_a_scene_or_robot_without_a_name_comes_back_with_the_plan(ending, plan, tmp_path):
+    scene, robot = plan.scene, plan.robot
+    scene.name = robot.name = ""  # what a scene built in code has that was given none
+    plan.scene, plan.robot = scene, robot
+    plan.save(tmp_path / f"plan{ending}")
+    loaded = mp.Plan.load(tmp_path / f"plan{ending}")
+    assert (loaded.scene.name, loaded.robot.name) == ("", "")
+
+
 @pytest.mark.parametrize("make", [standing_plan, stepping_plan, turning_plan])
 def test_a_plan_comes_back_exactly_from_json(make, tmp_path):
     plan = make()

@@ -95,7 +95,7 @@ struct Fields<PlanarRobot> {
       "A tree of rigid bodies in a vertical plane (x forward, y up) on a free base. Joint j moves body j + 1. SI "
       "units.";
   static constexpr auto all = std::make_tuple(
-      field("name", &PlanarRobot::name, "", "Name; of a file that says none, the file's.").not_empty().always_written(),
+      field("name", &PlanarRobot::name, "", "Name; of a file that says none, the file's.").always_written(),
       field("description", &PlanarRobot::description, "", "One line."),
       field("gravity", &PlanarRobot::gravity, "m/s^2", "Acceleration along -y.").positive().always_written(),
       field("bodies", &PlanarRobot::bodies, "",

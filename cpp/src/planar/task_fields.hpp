@@ -216,7 +216,7 @@ struct Fields<PlanarTask> {
   static constexpr const char* meaning =
       "A task for whole-body planning: planar robot, ground, and the sequence of contact stances. SI units.";
   static constexpr auto all = std::make_tuple(
-      field("name", &PlanarTask::name, "", "Name; of a file that says none, the file's.").not_empty().always_written(),
+      field("name", &PlanarTask::name, "", "Name; of a file that says none, the file's.").always_written(),
       field("description", &PlanarTask::description, "", "One line."),
       field("robot", &PlanarTask::robot, "", "The planar robot.").required().by_file_keys(),
       field("surfaces", &PlanarTask::surfaces, "", "The ground; assign a list to add or remove.")

@@ -118,7 +118,7 @@ struct Fields<Robot> {
   static constexpr const char* meaning =
       "What a planner needs to know of a robot: lumped inertia and where its limbs reach. SI units.";
   static constexpr auto all = std::make_tuple(
-      field("name", &Robot::name, "", "Name; of a file that says none, the file's.").not_empty().always_written(),
+      field("name", &Robot::name, "", "Name; of a file that says none, the file's.").always_written(),
       field("description", &Robot::description, "", "One line."),
       field("mass", &Robot::mass, "kg", "Total mass.").positive().required(),
       field("inertia", &Robot::inertia, "kg m^2", "Diagonal, about the CoM, in the nominal posture.")

@@ -72,7 +72,7 @@ struct Fields<Scene> {
   static constexpr const char* name = "Scene";
   static constexpr const char* meaning = "The world: surfaces, start and goal. World frame W with z up, SI units.";
   static constexpr auto all = std::make_tuple(
-      field("name", &Scene::name, "", "Name; of a file that says none, the file's.").not_empty().always_written(),
+      field("name", &Scene::name, "", "Name; of a file that says none, the file's.").always_written(),
       field("description", &Scene::description, "", "One line."),
       field("gravity", &Scene::gravity, "m/s^2", "Acceleration, downwards.").positive().always_written(),
       field("surfaces", &Scene::surfaces, "", "Surfaces; assign a list to add or remove.")
