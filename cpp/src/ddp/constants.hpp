@@ -108,6 +108,9 @@ constexpr double kSoleRoom = 0.03, kNominalRoom = 0.9;
 /// Room that swings keep above solids and beside them, in heights of the CoM; the most that a foot is lifted, in usual
 /// swing heights: the largest that a plan's swings are chosen from. Chosen.
 constexpr double kPathRoom = 0.01, kLiftMax = 4.0;
+/// What is this far inside a solid's outline at most, in heights of the CoM, stands beside it: a foothold put onto the
+/// edge of a tread is by rounding inside of the next one, a whole riser deep. Chosen, below what the checker tolerates.
+constexpr double kBeside = 1e-3;
 /// Distance from the reference of the CoM, in heights of it, within which solids are looked at. Chosen: ground is one
 /// away, and robots crouch.
 constexpr double kStanding = 0.6;

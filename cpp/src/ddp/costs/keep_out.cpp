@@ -1,3 +1,4 @@
+#include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
 
 namespace mcplan::ddp {
@@ -19,7 +20,7 @@ class KeepOut final : public CostTerm {
     for (std::size_t i = 0; i < problem.polygons.size(); ++i) {
       const Polygon& polygon = problem.polygons[i];
       const double height = polygon.height(p);
-      if (height >= 0.0 || height < -problem.keep_out_depth[i] || polygon.outside(p) > 0.0) continue;
+      if (height >= 0.0 || height < -problem.keep_out_depth[i] || polygon.outside(p) > -kBeside) continue;
       // Out of what is higher than it can be lifted it goes by the nearest side.
       const EndLimits& limit = problem.limits[step.l];
       const bool up = -height <= limit.reach_max.z() - limit.reach_min.z();

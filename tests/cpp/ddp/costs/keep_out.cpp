@@ -19,7 +19,14 @@ TEST_CASE("a free end-effector is kept out of the solids, at their outline and d
   };
   CHECK(price({0.0, 0.0, 0.01}) == 0.0);
   CHECK(price({0.0, 0.0, -0.07}) == doctest::Approx(0.01));
-  CHECK(price({0.0, 0.0, -0.11}) == 0.0);                    // below the solid
-  CHECK(price({0.9, 0.0, -0.07}) == 0.0);                    // in the gap
+  CHECK(price({0.0, 0.0, -0.11}) == 0.0);  // below the solid
+  CHECK(price({0.9, 0.0, -0.07}) == 0.0);  // in the gap
+  // A foothold put onto the edge of the tread below is beside the next one, inside by rounding or not.
+  const mcplan::Polygon& floor = problem.polygons[0];
+  Vector3d edge = 0.7 * 0.5 * (floor.vertices_W()[0] + floor.vertices_W()[1]), inward = 0.7 * floor.centroid_W() - edge;
+  edge.z() = -0.07;
+  CHECK(price(edge) == 0.0);
+  CHECK(price(edge + 1e-5 * inward.normalized()) == 0.0);
+  CHECK(price(edge + 0.01 * inward.normalized()) == doctest::Approx(0.01));
   CHECK(price({0.9, -0.4, 0.43}) == doctest::Approx(0.01));  // a foot in a pad
 }
