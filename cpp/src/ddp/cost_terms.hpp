@@ -27,14 +27,14 @@ struct StepView {
   int surface = kFree;                             ///< that it touches
   double sole_yaw = 0.0;                           ///< [rad] heading of its sole
   const SwingArc* arc = nullptr;                   ///< of its swing, where that is known
-  const std::vector<double>* sole_yaws = nullptr;  ///< [rad] headings of all soles
+  const std::vector<double>* sole_yaws = nullptr;  ///< [rad] headings of all soles at the knot
 
   /// Take from a trajectory what is given of the end-effector.
   void look_at(int end_effector, int contact, const Trajectory& t) {
     l = end_effector;
     surface = contact;
     sole_yaw = t.sole_yaw[k][l];
-    sole_yaws = &t.sole_yaw[k];
+    sole_yaws = &t.knot_yaw[k];
     arc = t.swing_arcs.empty() ? nullptr : &t.swing_arcs[k][l];
   }
 

@@ -77,8 +77,7 @@ void set_sole_yaw(const Problem& problem, const Trajectory& trajectory, Plan& pl
     yaw.assign(problem.robot.end_effectors.size(), plan.knots[k].base_rpy.z());
     for (int l = 0; l < problem.layout.end_effector_count(); ++l) {
       const int e = problem.active[l];
-      const bool just_left = k > 0 && in_contact(plan, k - 1, e);
-      yaw[e] = trajectory.sole_yaw[just_left ? k - 1 : k][l];
+      yaw[e] = trajectory.knot_yaw[k][l];
     }
   }
 }

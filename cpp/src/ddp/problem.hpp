@@ -35,6 +35,7 @@ struct Units {
 struct Trajectory {
   std::vector<Eigen::VectorXd> x, u;
   std::vector<std::vector<double>> sole_yaw;  ///< by step and end-effector [rad]: given, not optimised; see Problem
+  std::vector<std::vector<double>> knot_yaw;  ///< the same; of a sole that has just left, that of its last foothold
   SwingArcs swing_arcs;                       ///< likewise; empty: every phase is taken for a whole swing
 };
 

@@ -206,6 +206,10 @@ void Problem::set_sole_yaw(const ContactSequence& sequence, Trajectory& t) const
       if (first == 0) yaw = start_yaw[l];
       for (int j = first; j <= k; ++j) t.sole_yaw[j][l] = yaw;
     }
+  t.knot_yaw = t.sole_yaw;
+  for (int k = 1; k <= steps; ++k)
+    for (int l = 0; l < layout.end_effector_count(); ++l)
+      if (sequence[k][l] == kFree && sequence[k - 1][l] != kFree) t.knot_yaw[k][l] = t.sole_yaw[k - 1][l];
 }
 
 /// Footholds where the reference is in the middle of each contact, straight lines between them.

@@ -115,6 +115,9 @@ TEST_CASE("standing soles head where the base does on average, at start and goal
     CAPTURE(k);
     CHECK(of(0)[k] == doctest::Approx(expected_right[k]));
     CHECK(of(1)[k] == doctest::Approx(expected_left[k]));
+    // At the knot at which it is lifted a sole still heads as it stood.
+    CHECK(t.knot_yaw[k][0] == doctest::Approx(k == 1 ? 0.2 : k == 6 ? right_yaw : expected_right[k]));
+    CHECK(t.knot_yaw[k][1] == doctest::Approx(k == 4 ? 0.2 : expected_left[k]));
   }
   // A contact that ends at the last knot but is not the goal's goes by the base again; whoever never steps keeps to the
   // start's.

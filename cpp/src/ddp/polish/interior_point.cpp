@@ -176,6 +176,7 @@ void InteriorPoint::take() {
   fixed_.problem().set_sole_yaw(fixed_.contacts(), motion_.trajectory);
   set_swing_arcs(fixed_.problem(), fixed_.contacts(), motion_.trajectory);
   trial_.trajectory.sole_yaw = motion_.trajectory.sole_yaw;
+  trial_.trajectory.knot_yaw = motion_.trajectory.knot_yaw;
   trial_.trajectory.swing_arcs = motion_.trajectory.swing_arcs;
   limits_.head(motion_.trajectory);
   if (limits_.relaxed()) limits_.relax(motion_);

@@ -7,18 +7,21 @@
 /// down; headings and axis are given, and follow the iterates.
 namespace mcplan::ddp::polish {
 
-/// A foot that touches down at knot k beside each that stands there by then.
+/// A foot that touches down at knot k beside each that stands there by then, or leaves the ground at that instant.
 void Limits::make_sole_pairs(int k) {
   const Problem& problem = fixed_->problem();
   const Layout& at = problem.layout;
   const std::vector<Touchdown>& all = fixed_->touchdowns();
+  const auto stands = [&](int l) {
+    return fixed_->contacts()[k][l] != kFree || (k > 0 && fixed_->contacts()[k - 1][l] != kFree);
+  };
   const auto lands = [&](int l) {
     return std::any_of(all.begin(), all.end(), [&](const Touchdown& t) { return t.knot == k && t.l == l; });
   };
   for (const Touchdown& t : all) {
     if (t.knot != k || !has_sole(problem, t.l)) continue;
     for (int other = 0; other < at.end_effector_count(); ++other) {
-      if (other == t.l || !has_sole(problem, other) || fixed_->contacts()[k][other] == kFree) continue;
+      if (other == t.l || !has_sole(problem, other) || !stands(other)) continue;
       if (other > t.l && lands(other)) continue;  // once
       const double room = sole_room(problem.limits[t.l], problem.limits[other]);
       if (!(room > 0.0)) continue;
@@ -35,7 +38,7 @@ void Limits::part_soles(const Trajectory& trajectory) {
   for (const SolePair& pair : pairs_) {
     const auto place = [&](int l) { return trajectory.x[pair.k].segment<2>(problem.layout.end(l)); };
     const Eigen::Vector2d apart = place(pair.l) - place(pair.other);
-    const double yaw = trajectory.sole_yaw[pair.k][pair.l], other_yaw = trajectory.sole_yaw[pair.k][pair.other];
+    const double yaw = trajectory.knot_yaw[pair.k][pair.l], other_yaw = trajectory.knot_yaw[pair.k][pair.other];
     const SoleGap gap = sole_gap(problem.limits[pair.l], yaw, problem.limits[pair.other], other_yaw, apart);
     Linear& row = phases_[pair.k].linear[pair.linear];
     row.offset = pair.room + gap.reach;
