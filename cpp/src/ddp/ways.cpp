@@ -149,7 +149,8 @@ void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& fo
 
 /// A robot that is tracked on four point feet begins with a crawl and nothing else: a discovery over four feet takes
 /// several times as long, and mostly ends with no better walk. Where the base turns, its feet have further to go than
-/// the CoM, by which phases are counted: a crawl that fails is tried in more of them. Whether that was all.
+/// the CoM, by which phases are counted, and up and down steps they need to stand at places of their own: a crawl that
+/// fails or strains the robot is tried in more of them. Whether that was all.
 bool WaysToGoal::crawl_along(const Way& way, Report& report, Found& found, const Beside* beside) const {
   if (earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper) return false;
   if (!options_->stepping_guesses || way.crawl_known) return false;
@@ -165,15 +166,16 @@ bool WaysToGoal::crawl_along(const Way& way, Report& report, Found& found, const
     if (first == 0) first = found.steps;
     const std::size_t before = report.history.size();
     Attempts attempts(std::move(posed.problem), posed.surfaces, *deadline_, found.best, report);
-    found.ending = attempts.crawl();
+    const Ending ending = attempts.crawl();
     name_surfaces(report, before, posed.surfaces);
-    if (found.best.solved() || !ended_by_itself(found.ending) || way.brief) {
-      found.best.settle(attempts.problem(), report);
-      return true;
-    }
-    if (options_->phases > 0) break;
+    const bool cut_short = !ended_by_itself(ending);
+    if (!found.best.solved() || cut_short) found.ending = ending;
+    if (found.best.solved() || cut_short || way.brief) found.best.settle(attempts.problem(), report);
+    if (cut_short || way.brief || options_->phases > 0) break;
+    if (found.best.solved() && !strains(*found.best.best())) break;
   }
-  return false;
+  if (found.best.solved()) found.steps = static_cast<int>(found.best.best()->plan.phases.size());
+  return found.best.solved() || !ended_by_itself(found.ending) || (way.brief && found.crawled);
 }
 
 /// In as many phases as the way asks for.
@@ -340,10 +342,13 @@ Found WaysToGoal::search(Report& report) const {
   std::optional<Found> best;
   const int by_feet = !given && four_feet_stand() ? 2 : 0,
             least = options_->min_contacts < 0 ? by_feet : options_->min_contacts;
-  bool stopped = false;  // by the caller or a limit: whatever was found before, nothing more is tried
+  Ending cut_short = Ending::done;  // by the caller or a limit: whatever was found before, nothing more is tried
   const auto try_way = [&](Way way, Ahead* ahead = nullptr) {
-    stopped = stopped || (best && (deadline_->passed() || (options_->stop && options_->stop())));
-    if (stopped) return;
+    if (best && ended_by_itself(cut_short)) {
+      if (deadline_->passed()) cut_short = Ending::time_limit;
+      if (options_->stop && options_->stop()) cut_short = Ending::interrupted;
+    }
+    if (!ended_by_itself(cut_short)) return;
     if (way.brief && !(best && best->best.ok())) {
       way.brief = false;
       ahead = nullptr;
@@ -354,7 +359,7 @@ Found WaysToGoal::search(Report& report) const {
     if (!way.course.route.empty()) try_more_phases(report, found);
     if (way.over_bars) mend(report, found);
     const bool its_own = found.ending == Ending::iteration_limit && report.iterations < options_->max_iterations;
-    stopped = !ended_by_itself(found.ending) && !its_own;
+    if (!ended_by_itself(found.ending) && !its_own) cut_short = found.ending;
     if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
   };
   const auto [sure, otherwise, bars] = ways_of(routes, given, least);
@@ -379,6 +384,8 @@ Found WaysToGoal::search(Report& report) const {
     leaping.crawl_known = true;  // straight on was tried, and a crawl has more feet down than are asked for
     try_way(leaping);
   }
+  // What was not looked at may have a plan.
+  if (!ended_by_itself(cut_short) && !best->best.ok()) best->ending = cut_short;
   best->barrier = routes.barrier;
   if (best->way.course.route.empty()) try_more_phases(report, *best);
   mend(report, *best);
