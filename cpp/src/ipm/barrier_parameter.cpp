@@ -13,6 +13,8 @@ constexpr double kBarrierTolerance = 10.0;                           // kappa_ep
 constexpr double kLinearDecrease = 0.2, kSuperlinearDecrease = 1.5;  // kappa_mu, theta_mu
 constexpr double kProgress = 0.9999;                                 // of the optimality error over the last iterations
 constexpr double kLeastRatio = 0.1;  // of a probed barrier parameter, over the average complementarity
+// The same where the Hessian was damped in the iteration's step: what is probed holds for the damped model alone.
+constexpr double kDampedLeastRatio = 0.5;
 // Three steps in a row cut to less than a tenth by the bounds, while mu waits for its problem's solution, say that it
 // has fallen too far ahead: iterates follow a curved valley next to their bounds. It then rises again.
 constexpr double kCutStep = 0.1, kRaise = 10.0, kMostRaised = 0.01;
@@ -32,7 +34,7 @@ double Barrier::probed_mu(const Point& point, double average) {
   const double sum = (gap_lower_ + primal * affine_.t).dot(lower_dual_ + dual * affine_.lower) +
                      (gap_upper_ - primal * affine_.t).dot(upper_dual_ + dual * affine_.upper);
   const double ratio = std::max(0.0, sum / bound_count_) / average;
-  const double least = probing_ ? kLeastRatio : 0.0;
+  const double least = !probing_ ? 0.0 : delta_ > 0.0 ? kDampedLeastRatio : kLeastRatio;
   return std::clamp(ratio * ratio * ratio, least, 1.0) * average;
 }
 

@@ -22,16 +22,21 @@ struct Memory {
   State state;  ///< at its start
   Eigen::VectorXd x;
   std::vector<Eigen::Vector3d> footholds_W;  ///< that it found
+  std::vector<Eigen::Matrix3Xd> forces_W;    ///< of the points of each control
   int swing = -1;                            ///< foot of its first step
 };
 
-/// Footholds of an earlier cycle moved by how far the robot has come since, to where the sole fits.
+Memory memory_of(const State& state, const Horizon& horizon, const Eigen::VectorXd& x);
+
+/// Footholds of an earlier cycle moved by how far the robot has come since, to where the sole fits; left and right are
+/// exchanged where its first step had the other foot.
 std::vector<Eigen::Vector3d> moved_footholds(const Walker& walker, const State& state, const Footsteps& footsteps,
                                              int first, const Memory& memory);
 
-/// Variables of an earlier cycle of the same layout, in which the first step had the same foot; horizons count
-/// positions from their own start, so that CoM and forces are taken as they are, and footholds are where this horizon
-/// measures them from.
-Eigen::VectorXd remembered_guess(const State& state, const Horizon& horizon, const Memory& memory);
+/// Variables of an earlier cycle of the same layout, left and right exchanged where its first step had the other foot.
+/// Horizons count positions from their own start, so that they are taken as they are, but that the CoM rises with the
+/// footholds; forces keep their direction in the world, and footholds are where this horizon measures them from.
+Eigen::VectorXd remembered_guess(const Walker& walker, const State& state, const Horizon& horizon,
+                                 const Memory& memory);
 
 }  // namespace mcplan::rhp

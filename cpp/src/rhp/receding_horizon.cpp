@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <optional>
 #include <utility>
 
@@ -65,10 +64,10 @@ struct RecedingHorizon::Impl {
   std::string out_of_reach;  ///< the step that no foothold makes possible, if there is one
   std::string yielded;       ///< which margins are smaller than the option says, if any
   State state, own_state;
-  bool moved = false;           ///< the next cycle starts where no cycle has ended
-  bool measured = false;        ///< the walk did not start where the scene says
-  int index = 0;                ///< cycles done well
-  std::deque<Memory> memories;  ///< of the last two cycles
+  bool moved = false;            ///< the next cycle starts where no cycle has ended
+  bool measured = false;         ///< the walk did not start where the scene says
+  int index = 0;                 ///< cycles done well
+  std::optional<Memory> memory;  ///< of the last cycle
   Plan executed, horizon;
   bool horizon_rests = false;  ///< at its end
   int steps_used = 0;          ///< of the horizon, after its first
@@ -94,25 +93,24 @@ struct RecedingHorizon::Impl {
   CheckResult checked(const Plan& step) const;
   void accept_predicted(Cycle& cycle);
   void take(Cycle& cycle, Plan next, const CheckResult& found, const RunningCost& cost);
-  void remember(const Horizon& horizon_now, const nlp::Solution& solution);
 };
 
 HorizonRequest RecedingHorizon::Impl::request_for(int steps) const {
-  // Solutions of one leg repeat two cycles later; before that, and where the horizon has become shorter, there is none.
-  const Memory* memory = memories.size() == 2 ? &memories.front() : nullptr;
-  if (memory && steps_used > 0 && memory->swing != footsteps[index].foot) memory = &memories.back();
-  if (memory && (memory->swing != footsteps[index].foot || static_cast<int>(memory->footholds_W.size()) != steps))
-    memory = nullptr;
+  // The last solution, left and right exchanged if it began with the other leg, unless the horizon has become shorter
+  // or the feet have not the same points.
+  const Memory* last = memory && static_cast<int>(memory->footholds_W.size()) == steps ? &*memory : nullptr;
+  const auto pointed = [this](int foot) { return walker.feet[foot].half_size.maxCoeff() == 0.0; };
+  if (last && last->swing != footsteps[index].foot && pointed(0) != pointed(1)) last = nullptr;
   HorizonRequest request;
   request.state = state;
   request.first = index;
   request.steps = steps;
-  request.footholds_W = memory ? moved_footholds(walker, state, footsteps, index, *memory)
-                               : nominal_footholds(walker, state, footsteps, index, steps);
+  request.footholds_W = last ? moved_footholds(walker, state, footsteps, index, *last)
+                             : nominal_footholds(walker, state, footsteps, index, steps);
   request.rest = footsteps.ends() && steps == steps_left();
-  request.guess = [this, memory](const Horizon& built) {
-    return memory && memory->x.size() == built.problem.variable_count() ? remembered_guess(state, built, *memory)
-                                                                        : nominal_guess(walker, state, built);
+  request.guess = [this, last](const Horizon& built) {
+    return last && last->x.size() == built.problem.variable_count() ? remembered_guess(walker, state, built, *last)
+                                                                    : nominal_guess(walker, state, built);
   };
   return request;
 }
@@ -243,7 +241,7 @@ void RecedingHorizon::Impl::accept(Cycle& cycle, const Unfinished& now, const De
   horizon = executed_plan(walker, state, horizon_now, solution.x, horizon_now.steps);
   horizon_rests = now.request.rest;
   steps_used = 0;
-  remember(horizon_now, solution);
+  memory = memory_of(state, horizon_now, solution.x);
   take(cycle, std::move(next), found, {measures.acceleration_cost, measures.momentum_cost});
   finishing_s = deadline.elapsed_s() - start_s;
 }
@@ -264,17 +262,6 @@ void RecedingHorizon::Impl::accept_predicted(Cycle& cycle) {
   ++steps_used;
   const RunningCost cost = running_cost(walker, next);
   take(cycle, std::move(next), found, cost);
-}
-
-/// The next cycle of the same leg starts from here.
-void RecedingHorizon::Impl::remember(const Horizon& horizon_now, const nlp::Solution& solution) {
-  Memory memory;
-  memory.state = state;
-  memory.x = solution.x;
-  for (int i = 0; i < horizon_now.steps; ++i) memory.footholds_W.push_back(horizon_now.position_W(solution.x, 2 + i));
-  memory.swing = footsteps[index].foot;
-  memories.push_back(std::move(memory));
-  if (memories.size() > 2) memories.pop_front();
 }
 
 /// A step becomes the walk's next one.

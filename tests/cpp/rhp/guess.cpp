@@ -2,7 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "rhp/walkers.hpp"
 
@@ -19,6 +23,28 @@ Horizon horizon_of(const Walker& walker, const State& state, const std::vector<V
   request.footholds_W = footholds_W;
   request.guess = [&](const Horizon& built) { return nominal_guess(walker, state, built); };
   return build_horizon(walker, footsteps_of(walker), request);
+}
+
+/// A point beside the guess, the feet that stand where they are.
+VectorXd near(const Horizon& horizon, unsigned seed) {
+  VectorXd x = horizon.guess + walkers::Random(seed).vector(horizon.problem.variable_count(), 0.02);
+  for (int foot = 0; foot < 2; ++foot) x.segment<2>(horizon.placements[foot].variable).setZero();
+  return x;
+}
+
+/// By the names of their pieces, how far a point is from the limits of the rows, smallest first.
+std::map<std::string, std::vector<double>> distances(const Horizon& horizon, const VectorXd& x) {
+  const nlp::Problem& problem = horizon.problem;
+  VectorXd rows(problem.row_count());
+  problem.rows(x, rows);
+  std::map<std::string, std::vector<double>> out;
+  for (int i = 0; i < rows.size(); ++i) {
+    const std::string name = problem.row_name(i);
+    const double low = rows[i] - problem.row_lower()[i], high = problem.row_upper()[i] - rows[i];
+    out[name.substr(0, name.find_first_of(" ["))].push_back(std::min(std::abs(low), std::abs(high)));
+  }
+  for (auto& [name, values] : out) std::sort(values.begin(), values.end());
+  return out;
 }
 
 }  // namespace
@@ -62,12 +88,7 @@ TEST_CASE("what is remembered fits a robot that has moved on level ground as it 
   const Footsteps footsteps = footsteps_of(walker);
   const auto footholds = nominal_footholds(walker, state, footsteps, 0, 2);
   const Horizon horizon = horizon_of(walker, state, footholds);
-  Memory memory;
-  memory.state = state;
-  memory.x = horizon.guess + walkers::Random(5).vector(horizon.problem.variable_count(), 0.02);
-  memory.swing = walkers::left;
-  for (int foot = 0; foot < 2; ++foot) memory.x.segment<2>(horizon.placements[foot].variable).setZero();  // fixed
-  for (int i = 0; i < 2; ++i) memory.footholds_W.push_back(horizon.position_W(memory.x, 2 + i));
+  const Memory memory = memory_of(state, horizon, near(horizon, 5));
 
   const Vector3d way(0.6, -0.1, 0.0);
   State later = state;
@@ -75,7 +96,7 @@ TEST_CASE("what is remembered fits a robot that has moved on level ground as it 
   for (Vector3d& foot : later.feet_W) foot += way;
   const auto moved = moved_footholds(walker, later, footsteps, 0, memory);
   const Horizon next = horizon_of(walker, later, moved);
-  const VectorXd guess = remembered_guess(later, next, memory);
+  const VectorXd guess = remembered_guess(walker, later, next, memory);
   for (int i = 0; i < 2; ++i)
     CHECK((next.position_W(guess, 2 + i) - way - horizon.position_W(memory.x, 2 + i)).norm() < 1e-9);
   for (std::size_t k = 0; k < next.nodes.size(); ++k)
@@ -95,6 +116,54 @@ TEST_CASE("what is remembered fits a robot that has moved on level ground as it 
     after[i] -= from_below ? next.problem.row_lower()[i] : next.problem.row_upper()[i];
     CHECK_MESSAGE(std::abs(before[i] - after[i]) < 1e-9, horizon.problem.row_name(i));
   }
+}
+
+TEST_CASE("what is remembered of a step with the other foot is its mirror image") {
+  for (Fidelity fidelity : {Fidelity::single, Fidelity::point, Fidelity::rectangle}) {
+    Options options = walkers::quick();
+    options.fidelity = fidelity;
+    const Walker walker(walkers::plain(), walkers::robot(), options);
+    const Walker other(walkers::mirrored(walkers::plain()), walkers::robot(), options);
+    const State state = walker.start(), image = other.start();
+    const Horizon horizon = horizon_of(walker, state, nominal_footholds(walker, state, footsteps_of(walker), 0, 2));
+    const VectorXd x = near(horizon, 7);
+    const Memory memory = memory_of(state, horizon, x);
+    const Horizon next = horizon_of(other, image, moved_footholds(other, image, footsteps_of(other), 0, memory));
+    const VectorXd guess = remembered_guess(other, image, next, memory);
+    CHECK(next.problem.cost(guess) == doctest::Approx(horizon.problem.cost(x)).epsilon(1e-12));
+    const auto before = distances(horizon, x), after = distances(next, guess);
+    for (const auto& [name, values] : before) {
+      if (name == "foothold") continue;  // how far the edges of the ground are
+      REQUIRE(after.at(name).size() == values.size());
+      for (std::size_t i = 0; i < values.size(); ++i)
+        CHECK_MESSAGE(std::abs(after.at(name)[i] - values[i]) < 1e-9, name);
+    }
+  }
+}
+
+TEST_CASE("the CoM is remembered as high over the feet as it was, and forces keep their direction") {
+  const Walker walker(walkers::uneven(), walkers::robot(), walkers::quick());
+  const State state = walker.start();
+  const Footsteps footsteps = footsteps_of(walker);
+  const Horizon horizon = horizon_of(walker, state, nominal_footholds(walker, state, footsteps, 0, 2));
+  const VectorXd x = near(horizon, 9);
+  Memory memory = memory_of(state, horizon, x);
+  const double deeper = 0.07;  // than here were the footholds of the memory
+  for (Vector3d& foothold_W : memory.footholds_W) foothold_W.z() -= deeper;
+  Horizon next = horizon_of(walker, state, moved_footholds(walker, state, footsteps, 0, memory));
+  for (int i = 0; i < 2; ++i) {  // tilted otherwise
+    next.placements[2 + i].axes_W = Eigen::AngleAxisd(0.1, Vector3d::UnitX()) * next.placements[2 + i].axes_W;
+    next.placements[2 + i].origin_W.z() = memory.footholds_W[i].z() + deeper;
+  }
+  const VectorXd guess = remembered_guess(walker, state, next, memory);
+  const auto end = [](const Horizon& of, const VectorXd& at) { return at[of.nodes.back().com + 2]; };
+  CHECK(end(next, guess) - end(horizon, x) == doctest::Approx(deeper).epsilon(1e-9));
+  for (std::size_t k = 0; k < next.controls.size(); ++k)
+    for (std::size_t i = 0; i < next.controls[k].points.size(); ++i) {
+      const ContactPoint& point = next.controls[k].points[i];
+      const Vector3d force_W = point.force_W(next.placements[point.placement], guess);
+      CHECK((force_W - memory.forces_W[k].col(static_cast<int>(i))).norm() < 1e-9);
+    }
 }
 
 }  // namespace mcplan::rhp::tests
