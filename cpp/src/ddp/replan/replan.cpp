@@ -48,27 +48,22 @@ class Trials {
   Trials(const Now& now, Report& report) : now_(&now), report_(&report) {}
 
   /// Whether there is no need, or no time, for another one.
-  bool done() const {
-    return (best_ && (best_->ok() || best_->ending == Ending::interrupted)) || now_->deadline->passed() ||
-           (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_) ||
-           (best_ && iterations_left(best_->plan) < kWorthwhile);
-  }
+  bool done() const { return solved() || too_late() || (best_ && iterations_left(best_->plan) < kWorthwhile); }
 
   /// With `apart` it gets its iterations whatever work others have been, and takes none from them.
   void make(const Now& now, const Rest& rest, PlanFrom from, bool apart = false) {
     const double begin_s = now_->deadline->elapsed_s();
-    const int iterations = best_ && !apart ? iterations_left(best_->plan) : kReplanIterations;
-    std::optional<Trial> trial = try_out(now, rest, *report_, iterations);
-    if (trial && !apart) work_ += trial->work;
-    const bool again = trial && !held_joints_ && asks_too_much_of_joints(*trial);
-    const Plan found = again ? trial->plan : Plan();
+    std::optional<Trial> trial = attempt(now, rest, apart, nullptr);
+    Again again;
+    again.hold_joints = trial && !held_joints_ && asks_too_much_of_joints(*trial);
+    if (trial && !again.hold_joints && misses_by_little(*trial)) again.missed = trial->check.violations();
+    const bool worth_it = again.hold_joints || !again.missed.empty();
+    if (worth_it) again.from = trial->plan;
     take(std::move(trial), from);
-    held_joints_ = held_joints_ || again;
-    if (again && !done()) {
-      trial = try_out(now, rest, *report_, iterations_left(found), &found);
-      if (trial && !apart) work_ += trial->work;
-      take(std::move(trial), from);
-    }
+    held_joints_ = held_joints_ || again.hold_joints;
+    // What is missed by little takes few iterations: they are not counted.
+    const bool uncounted = apart || !again.missed.empty();
+    if (worth_it && !(uncounted ? solved() || too_late() : done())) take(attempt(now, rest, uncounted, &again), from);
     longest_s_ = std::max(longest_s_, now_->deadline->elapsed_s() - begin_s);
   }
 
@@ -85,6 +80,11 @@ class Trials {
   /// Whether nothing more may be begun.
   bool out_of_time() const { return now_->deadline->passed() || (best_ && best_->ending == Ending::interrupted); }
 
+  /// Whether there is no time for another one that takes as long as the longest.
+  bool too_late() const {
+    return out_of_time() || (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_);
+  }
+
   bool solved() const { return best_ && best_->ok(); }
 
   /// Whether a controller may follow the best one for the next two steps.
@@ -95,6 +95,13 @@ class Trials {
   double best_ratio() const { return best_ratio_; }
 
  private:
+  std::optional<Trial> attempt(const Now& now, const Rest& rest, bool apart, const Again* again) {
+    const int iterations = best_ && !apart ? iterations_left(best_->plan) : kReplanIterations;
+    std::optional<Trial> trial = try_out(now, rest, *report_, iterations, again);
+    if (trial && !apart) work_ += trial->work;
+    return trial;
+  }
+
   /// A line of the log: why it was refused, or that it was not.
   void tell(const std::optional<Trial>& trial, PlanFrom from) const {
     const Logger& logger = now_->options->search.logger;
