@@ -16,6 +16,7 @@
 #include "ddp/replan/stops.hpp"
 #include "ddp/replan/trial.hpp"
 #include "ddp/replan/walk_on.hpp"
+#include "ddp/replan/ways_on.hpp"
 #include "ddp/replan_fit.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/friction_use.hpp"
@@ -39,7 +40,7 @@ Status status_of(const Trial& trial) {
 const char* name_of(PlanFrom from) {
   if (from == PlanFrom::same_sequence) return "the plan's own sequence";
   if (from == PlanFrom::stop) return "a stand";
-  return from == PlanFrom::other_sequence ? "another step or a hand" : "the plan as it was planned";
+  return from == PlanFrom::other_sequence ? "other steps or a hand" : "the plan as it was planned";
 }
 
 /// The trials of one replan, best first, and what is told of them.
@@ -189,15 +190,37 @@ void as_planned_or_with_a_hand(const Rest& rest, Now& now, Trials& trials) {
   }
 }
 
-/// To the scene's goal, by the plan's own sequence or with another step.
-void go_to_goal(Rest& rest, Now& now, Trials& trials) {
-  stand_on(rest, now.options->phases_min, now.similarity);
-  as_planned_or_with_a_hand(rest, now, trials);
-  if (Rest elsewhere = rest; now.options->other_sequences && stand_on_others(elsewhere, *now.scene, *now.robot)) {
-    now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, elsewhere);
-    trials.make(now, elsewhere, PlanFrom::other_sequence);
+/// So many ways to the goal are tried. Chosen: each takes as long as the plan's own sequence.
+constexpr std::size_t kWaysTried = 3;
+
+/// By other steps to the goal than those of the plan, from what the rest begins with.
+void go_another_way(const Rest& begun, const Now& now, Trials& trials) {
+  std::size_t tried = 0;
+  for (const Rest& way : ways_on(begun, *now.scene, *now.robot, now.similarity)) {
+    if (trials.solved() || trials.out_of_time() || tried++ == kWaysTried) return;
+    Now there = now;
+    there.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, way);
+    trials.make(there, way, PlanFrom::other_sequence, true);
   }
-  if (!now.options->other_sequences || (trials.best() && hopeless(*trials.best()))) return;
+}
+
+/// To the scene's goal, by the plan's own sequence, with another step, or by other steps where that does not lead there
+/// (any more).
+void go_to_goal(Rest& rest, Now& now, Trials& trials) {
+  const Rest begun = rest;
+  const bool others = now.options->other_sequences;
+  const bool elsewhere = ends_elsewhere(rest, *now.scene, *now.robot);
+  const bool gone = stands_on_what_is_gone(rest, *now.scene, *now.robot);
+  stand_on(rest, now.options->phases_min, now.similarity);
+  const bool leads_on = !elsewhere || changes_contacts(rest);
+  if (leads_on) as_planned_or_with_a_hand(rest, now, trials);
+  if (Rest there = rest; others && stand_on_others(there, *now.scene, *now.robot)) {
+    now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, there);
+    trials.make(now, there, PlanFrom::other_sequence);
+  }
+  if (others && (elsewhere || gone) && now.options->max_work > 0) go_another_way(begun, now, trials);
+  if (!leads_on && !trials.best()) as_planned_or_with_a_hand(rest, now, trials);
+  if (!others || (trials.best() && hopeless(*trials.best()))) return;
   for (const Rest& other : other_steps(rest, *now.robot, now.similarity)) {
     if (trials.done()) return;
     trials.make(now, other, PlanFrom::other_sequence);
