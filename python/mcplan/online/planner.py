@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan._core import Knot, Plan, Status
+from mcplan._core import Knot, Plan, PlanFrom, Status
 from mcplan._core.online import follows, with_feet_kept_up
 from mcplan.errors import InvalidInput, shown
 from mcplan.solve import replan
@@ -208,8 +208,10 @@ class Planner:
                 usable = follows(result.report, self.period_s)
                 if found is None or (usable and not follows(found.report, self.period_s)):
                     found = result
-                # One that keeps all limits for a while only is second to one that does to the end within wider limits.
-                if usable and result.report.status != Status.infeasible:
+                # One that keeps all limits for a while only, or that stops, is second to one that leads on to the end
+                # within wider limits.
+                stops = result.report.plan_from == PlanFrom.stop
+                if usable and result.report.status != Status.infeasible and not stops:
                     found = result
                     break
             if found is None:
