@@ -89,6 +89,20 @@ def test_a_plan_that_leads_to_the_end_goes_before_one_that_does_so_for_a_while_o
     assert len(asked) == (1 if outcomes[0] == "solved" else 2)
 
 
+def test_where_there_is_no_plan_the_planner_says_why(plan):
+    scene = plan.scene.__copy__()
+    scene.goal = scene.goal.__copy__()
+    scene.goal.position_W = [2.0, 0.0, 1.5]
+    with Planner(plan) as planner:
+        planner.scene = scene
+        planner.submit(state(plan, 1.0))
+        update = planner.wait()
+    expected = mp.replan(plan, 1.0, state(plan, 1.0).knot, scene=scene)
+    assert not expected.plan.phases
+    assert update.plan is None and not update.usable
+    assert (update.status, update.message) == (expected.report.status.name, expected.report.message)
+
+
 def test_the_next_plan_is_made_from_the_one_taken_over(plan):
     with Planner(plan, begins_s=-0.5) as planner:  # the plan began half a second before the clock
         planner.submit(state(plan, 1.0, clock_s=0.5))

@@ -48,7 +48,7 @@ PlanResult first_usable(const Question& question) {
     if (settled || first) found = std::move(result);
     if (settled) break;
   }
-  found->plan = with_feet_kept_up(std::move(found->plan));
+  if (!found->plan.phases.empty()) found->plan = with_feet_kept_up(std::move(found->plan));
   return *std::move(found);
 }
 

@@ -52,7 +52,7 @@ class Update:
     """What came of a replan.
 
     Attributes:
-        plan: The new plan; its time begins when the state was measured. None: there was an error, `message` says which.
+        plan: The new plan; its time begins when the state was measured. None: there is none, `message` says why.
         begins_s: Time of the clock at which the plan begins: that of the measured state.
         took_s: Wall clock of the computation.
         status: The planner's.
@@ -216,7 +216,7 @@ class Planner:
                     break
             if found is None:
                 raise InvalidInput("robots", "must be one at least", "none")
-            new = with_feet_kept_up(found.plan)
+            new = with_feet_kept_up(found.plan) if found.plan.phases else None
         except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
             took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
             return Update(None, state.time_s, took_s, "error", False, state.time_s, text, "previous_plan", ticket)
