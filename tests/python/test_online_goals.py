@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.online.goals import NEAR_RAD, NEAR_RATIO, is_elsewhere, turn_to, velocity_to
+from mcplan.online.goals import LOOKED_FOR_S, NEAR_RAD, NEAR_RATIO, Aim, is_elsewhere, turn_to, velocity_to
 
 GOALS = [
     (1.0, 0.6, np.pi / 2),
@@ -65,3 +65,21 @@ def test_goals_that_a_walk_leads_to_are_planned_to_at_once(robot):
 )
 def test_turns_go_the_shorter_way_round(heading, goal, turn):
     assert turn_to((0.0, 0.0, goal), heading) == pytest.approx(turn, abs=1e-4)
+
+
+def test_after_a_stand_steps_to_the_goal_are_looked_for_before_it_is_walked_towards_at_a_velocity(robot):
+    scene, place = mp.load_scene("flat"), np.array([0.5, 0.0, 0.9])
+    aim = Aim(scene, robot)
+    aim.stopped(3.0, place, 0.0)
+    assert aim.open and not aim.steering and aim.velocity(place, 0.0) is None
+    assert aim.goal == (*scene.goal.position_W[:2], scene.goal.yaw)
+    aim.stopped(3.0 + LOOKED_FOR_S - 0.1, place, 0.0)
+    assert not aim.steering
+    aim.stopped(3.0 + LOOKED_FOR_S + 0.1, place, 0.0)
+    assert aim.steering and aim.velocity(place, 0.0)[0] > 0.0
+    aim.led_to()
+    aim.stopped(9.0, place, 0.0)
+    assert aim.open and not aim.steering
+    # No steps lead to a goal that is turned.
+    aim.stopped(9.1, place, 1.0)
+    assert aim.steering

@@ -57,19 +57,24 @@ def test_what_is_submitted_comes_back_as_the_plan_that_replan_makes(plan):
         (["infeasible", "infeasible"], 0),
         (["iteration_limit", "iteration_limit"], 0),
         (["solved", "solved"], 0),
+        (["stand", "solved"], 1),  # it leads on
+        (["stand", "infeasible"], 0),
     ],
 )
-def test_a_plan_that_is_accepted_goes_before_one_that_keeps_its_limits_for_a_while(plan, monkeypatch, outcomes, chosen):
+def test_a_plan_that_leads_to_the_end_goes_before_one_that_does_so_for_a_while_or_stands(
+    plan, monkeypatch, outcomes, chosen
+):
     asked = []
 
     def replan(previous, t, knot, contacts, command, scene, robot, named):
         asked.append(robot)
         number = len(asked) - 1
+        stands = outcomes[number] == "stand"
         report = SimpleNamespace(
-            status=getattr(mp.Status, outcomes[number]),
+            status=mp.Status.solved if stands else getattr(mp.Status, outcomes[number]),
             kept_until_s=0.5,
             message=str(number),
-            plan_from=mp.model.PlanFrom.search,
+            plan_from=mp.model.PlanFrom.stop if stands else mp.model.PlanFrom.search,
         )
         return SimpleNamespace(plan=plan, report=report)
 
@@ -80,8 +85,22 @@ def test_a_plan_that_is_accepted_goes_before_one_that_keeps_its_limits_for_a_whi
         planner.robots = [plan.robot, widened(plan.robot) or plan.robot]
         planner.submit(state(plan, 1.0))
         update = planner.wait()
-    assert update.message == str(chosen) and update.status == outcomes[chosen]
+    assert update.message == str(chosen)
     assert len(asked) == (1 if outcomes[0] == "solved" else 2)
+
+
+def test_where_there_is_no_plan_the_planner_says_why(plan):
+    scene = plan.scene.__copy__()
+    scene.goal = scene.goal.__copy__()
+    scene.goal.position_W = [2.0, 0.0, 1.5]
+    with Planner(plan) as planner:
+        planner.scene = scene
+        planner.submit(state(plan, 1.0))
+        update = planner.wait()
+    expected = mp.replan(plan, 1.0, state(plan, 1.0).knot, scene=scene)
+    assert not expected.plan.phases
+    assert update.plan is None and not update.usable
+    assert (update.status, update.message) == (expected.report.status.name, expected.report.message)
 
 
 def test_the_next_plan_is_made_from_the_one_taken_over(plan):

@@ -51,3 +51,21 @@ def test_ground_that_does_not_fit_the_plan_is_refused_by_name():
     light.gravity = 1.62
     with pytest.raises(InvalidInput, match=r"true_scene\.gravity: must be that of the plan, 9\.8.*1\.62"):
         require_known(light, planned)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stone", ["right_1", "left_4"])
+def test_a_stone_that_is_missing_is_walked_round_to_the_goal(stone):
+    scene = mp.load_scene("stepping_stones")
+    plan, missing = mp.plan(scene, "talos").plan, [s.name for s in scene.surfaces].index(stone)
+    sequence = [list(contacts) for contacts in plan.contact_sequence()]
+    lands_s = next(t for t, c in zip(plan.knot_times(), sequence, strict=False) if missing in c)
+    true = scene_without(stone, planned=scene)
+    run = mp.run(plan, true_scene=true, told_at_s=lands_s - 0.5, latency=0.02)
+    assert not run.measures.fell and run.online.goal_off_m < 0.02
+    # Where its feet are at the end, and that it did not wait for another way, no plan says.
+    assert run.recording.com_W[-1, :2] == pytest.approx(scene.goal.position_W[:2], abs=0.02)
+    assert run.measures.completed_s < plan.duration() + 3.0
+    for followed in run.plans:
+        if followed.begins_s > lands_s - 0.4:
+            assert all(missing not in contacts for contacts in followed.plan.contact_sequence())

@@ -40,13 +40,15 @@ PlanResult first_usable(const Question& question) {
   for (const Robot& robot : *question.robots) {
     PlanResult result = ddp::replan(*question.plan, t, question.state.measured, scene, robot, question.options.replan);
     const bool usable = follows(result.report, question.options.period_s);
-    // One that keeps all limits for a while only is second to one that does to the end within wider limits.
-    const bool settled = usable && result.report.status != Status::infeasible;
+    // One that keeps all limits for a while only, or that stops, is second to one that leads on to the end within wider
+    // limits.
+    const bool stops = result.report.plan_from == PlanFrom::stop;
+    const bool settled = usable && result.report.status != Status::infeasible && !stops;
     const bool first = !found || (usable && !follows(found->report, question.options.period_s));
     if (settled || first) found = std::move(result);
     if (settled) break;
   }
-  found->plan = with_feet_kept_up(std::move(found->plan));
+  if (!found->plan.phases.empty()) found->plan = with_feet_kept_up(std::move(found->plan));
   return *std::move(found);
 }
 

@@ -26,6 +26,8 @@ NEAR_RAD, NEAR_RATIO = 0.25, 0.2
 FASTEST, HUMAN_M, MADE_GOOD_S = (0.12, 0.05, 0.3), 0.88, 2.0
 #: Phases that are planned ahead meanwhile: those that are left when the goal is near are walked on the spot.
 STEERED_PHASES = 6
+#: For so long after a stand has begun steps to the goal are looked for, before it is walked towards at a velocity [s].
+LOOKED_FOR_S = 2.0
 
 
 def turn_to(goal: tuple[float, float, float], heading: float) -> float:
@@ -105,6 +107,7 @@ class Aim:
         self._of_scene: Goal = (float(x), float(y), float(scene.goal.yaw))
         self._robot = robot
         self._asked: Goal | None = None
+        self._stands_s = np.inf  # since when no plan leads to the goal
         self.goal: Goal | None = None
         self.open = self.steering = False
 
@@ -116,10 +119,19 @@ class Aim:
         self.steering = is_elsewhere(goal, place_W, heading, self._robot)
         return True
 
-    def stopped(self) -> None:
-        """The plan under way is a stand: what led to the goal is lost, and steps there have to be made anew."""
-        self.goal = self.goal or self._of_scene
-        self.open = self.steering = True
+    def stopped(self, now_s: float, place_W: NDArray[np.float64], heading: float) -> None:
+        """The plan under way is a stand: what led to the goal is lost, and steps there have to be found anew.
+
+        Where none have been found for long, or steps do not lead there, it is walked towards at a velocity.
+        """
+        self.goal, self.open = self.goal or self._of_scene, True
+        self._stands_s = min(self._stands_s, now_s)
+        in_vain = now_s - self._stands_s > LOOKED_FOR_S
+        self.steering = in_vain or is_elsewhere(self.goal, place_W, heading, self._robot)
+
+    def led_to(self) -> None:
+        """The plan under way leads to the goal."""
+        self.open, self._stands_s = False, np.inf
 
     def velocity(self, place_W: NDArray[np.float64], heading: float) -> tuple[float, float, float] | None:
         """The velocity, ahead, to the left [m/s] and turning [rad/s], to walk at now; None: to the goal itself.

@@ -135,6 +135,7 @@ class Loop:
         )  # since when no plan could be followed; whether to come to a stand
         self.aim = Aim(plan.scene, self.robot)
         self.late_s = np.inf  # since when an end-effector is late
+        self.other_ground = False  # what the plan under way does not know yet
         self.plans = [FollowedPlan(plan, 0.0, 0.0)]
         count = int(np.ceil(self.length_s / self.dt_s)) + 1
         self.followed = FollowedReferences(count, desired)
@@ -234,10 +235,13 @@ class Loop:
         state = self.reader.read(now_s, *read, self._for_planner(standing), under_way.plan, t)
         heading = float(state.knot.base_rpy[2])
         self.planner.command = self._command(now_s, com_W, heading)
-        if self.ground.told(now_s) | self.ground.feel_heights(state, self.controller.speeds_m_s()):
+        told = self.ground.told(now_s)
+        self.other_ground |= told
+        if told | self.ground.feel_heights(state, self.controller.speeds_m_s()):
             self._plan_on(self.ground.scene)
         # Near the goal the phases that are left are enough, unless the robot has to catch itself.
-        few = reason in ("period", "touchdown") and self.planner.command is None and not self.aim.open
+        leads_on = self.planner.command is None and not self.aim.open and not self.other_ground
+        few = reason in ("period", "touchdown") and leads_on
         named = {"phases_min": 1} if few else {}
         self._choose_reach()
         self.planner.submit(state, **{**named, **self.aim.phases(com_W, heading)})
@@ -270,10 +274,13 @@ class Loop:
         """Plan to another goal if one holds by now and no command does."""
         if self.online.command_at(now_s) is not None:
             return
-        dynamics = self.controller.dynamics
-        heading = float(np.arctan2(dynamics.base_WB[1, 0], dynamics.base_WB[0, 0]))
-        if self.aim.ask(self.online.goal_at(now_s), dynamics.com_W, heading):
+        if self.aim.ask(self.online.goal_at(now_s), self.controller.dynamics.com_W, self._heading()):
             self._plan_on(self.ground.scene)
+
+    def _heading(self) -> float:
+        """Of the base [rad]."""
+        base_WB = self.controller.dynamics.base_WB
+        return float(np.arctan2(base_WB[1, 0], base_WB[0, 0]))
 
     def _plan_on(self, scene: Scene) -> None:
         """Plan on this ground from now on."""
@@ -317,14 +324,14 @@ class Loop:
             self.failing_s = min(self.failing_s, update.begins_s)
             return
         stands = update.plan_from == "stop" or self.planner.command == STAND
-        self.failing_s, self.stopping = np.inf, False
+        self.failing_s, self.stopping, self.other_ground = np.inf, False, False
         self.controller.set_plan(update.plan, update.begins_s)
         self.planner.take_over(update)
         if self.online.command_at(now_s) is None and stands:
-            self.aim.stopped()
+            self.aim.stopped(now_s, self.controller.dynamics.com_W, self._heading())
             self._plan_on(self.ground.scene)
         elif self.planner.command is None and update.status in ("solved", "acceptable"):
-            self.aim.open = False
+            self.aim.led_to()
         self.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
         self.tally.used += 1
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan._core import Knot, Plan, Status
+from mcplan._core import Knot, Plan, PlanFrom, Status
 from mcplan._core.online import follows, with_feet_kept_up
 from mcplan.errors import InvalidInput, shown
 from mcplan.solve import replan
@@ -52,7 +52,7 @@ class Update:
     """What came of a replan.
 
     Attributes:
-        plan: The new plan; its time begins when the state was measured. None: there was an error, `message` says which.
+        plan: The new plan; its time begins when the state was measured. None: there is none, `message` says why.
         begins_s: Time of the clock at which the plan begins: that of the measured state.
         took_s: Wall clock of the computation.
         status: The planner's.
@@ -208,13 +208,15 @@ class Planner:
                 usable = follows(result.report, self.period_s)
                 if found is None or (usable and not follows(found.report, self.period_s)):
                     found = result
-                # One that keeps all limits for a while only is second to one that does to the end within wider limits.
-                if usable and result.report.status != Status.infeasible:
+                # One that keeps all limits for a while only, or that stops, is second to one that leads on to the end
+                # within wider limits.
+                stops = result.report.plan_from == PlanFrom.stop
+                if usable and result.report.status != Status.infeasible and not stops:
                     found = result
                     break
             if found is None:
                 raise InvalidInput("robots", "must be one at least", "none")
-            new = with_feet_kept_up(found.plan)
+            new = with_feet_kept_up(found.plan) if found.plan.phases else None
         except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
             took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
             return Update(None, state.time_s, took_s, "error", False, state.time_s, text, "previous_plan", ticket)

@@ -48,7 +48,8 @@ struct ReplanOptions {
 
   /// Iterations times phases, over all sequences, after which no other one is tried: a bound of the time of a call
   /// that, unlike time_limit_s, gives the same plan on any machine. The plan's own sequence gets its iterations anyway,
-  /// and so do a stop and a hand that catches a push, unless this is 0.
+  /// as does what brings a plan within a limit that it misses by little, and unless this is 0, a stop, a hand that
+  /// catches a push, and up to three other ways to the goal.
   int max_work = 1000;
 
   /// Throws InvalidOptions naming all that is out of its range.

@@ -16,6 +16,7 @@
 #include "ddp/replan/stops.hpp"
 #include "ddp/replan/trial.hpp"
 #include "ddp/replan/walk_on.hpp"
+#include "ddp/replan/ways_on.hpp"
 #include "ddp/replan_fit.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/friction_use.hpp"
@@ -39,7 +40,7 @@ Status status_of(const Trial& trial) {
 const char* name_of(PlanFrom from) {
   if (from == PlanFrom::same_sequence) return "the plan's own sequence";
   if (from == PlanFrom::stop) return "a stand";
-  return from == PlanFrom::other_sequence ? "another step or a hand" : "the plan as it was planned";
+  return from == PlanFrom::other_sequence ? "other steps or a hand" : "the plan as it was planned";
 }
 
 /// The trials of one replan, best first, and what is told of them.
@@ -48,27 +49,22 @@ class Trials {
   Trials(const Now& now, Report& report) : now_(&now), report_(&report) {}
 
   /// Whether there is no need, or no time, for another one.
-  bool done() const {
-    return (best_ && (best_->ok() || best_->ending == Ending::interrupted)) || now_->deadline->passed() ||
-           (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_) ||
-           (best_ && iterations_left(best_->plan) < kWorthwhile);
-  }
+  bool done() const { return solved() || too_late() || (best_ && iterations_left(best_->plan) < kWorthwhile); }
 
   /// With `apart` it gets its iterations whatever work others have been, and takes none from them.
   void make(const Now& now, const Rest& rest, PlanFrom from, bool apart = false) {
     const double begin_s = now_->deadline->elapsed_s();
-    const int iterations = best_ && !apart ? iterations_left(best_->plan) : kReplanIterations;
-    std::optional<Trial> trial = try_out(now, rest, *report_, iterations);
-    if (trial && !apart) work_ += trial->work;
-    const bool again = trial && !held_joints_ && asks_too_much_of_joints(*trial);
-    const Plan found = again ? trial->plan : Plan();
+    std::optional<Trial> trial = attempt(now, rest, apart, nullptr);
+    Again again;
+    again.hold_joints = trial && !held_joints_ && asks_too_much_of_joints(*trial);
+    if (trial && !again.hold_joints && misses_by_little(*trial)) again.missed = trial->check.violations();
+    const bool worth_it = again.hold_joints || !again.missed.empty();
+    if (worth_it) again.from = trial->plan;
     take(std::move(trial), from);
-    held_joints_ = held_joints_ || again;
-    if (again && !done()) {
-      trial = try_out(now, rest, *report_, iterations_left(found), &found);
-      if (trial && !apart) work_ += trial->work;
-      take(std::move(trial), from);
-    }
+    held_joints_ = held_joints_ || again.hold_joints;
+    // What is missed by little takes few iterations: they are not counted.
+    const bool uncounted = apart || !again.missed.empty();
+    if (worth_it && !(uncounted ? solved() || too_late() : done())) take(attempt(now, rest, uncounted, &again), from);
     longest_s_ = std::max(longest_s_, now_->deadline->elapsed_s() - begin_s);
   }
 
@@ -85,6 +81,11 @@ class Trials {
   /// Whether nothing more may be begun.
   bool out_of_time() const { return now_->deadline->passed() || (best_ && best_->ending == Ending::interrupted); }
 
+  /// Whether there is no time for another one that takes as long as the longest.
+  bool too_late() const {
+    return out_of_time() || (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_);
+  }
+
   bool solved() const { return best_ && best_->ok(); }
 
   /// Whether a controller may follow the best one for the next two steps.
@@ -95,6 +96,13 @@ class Trials {
   double best_ratio() const { return best_ratio_; }
 
  private:
+  std::optional<Trial> attempt(const Now& now, const Rest& rest, bool apart, const Again* again) {
+    const int iterations = best_ && !apart ? iterations_left(best_->plan) : kReplanIterations;
+    std::optional<Trial> trial = try_out(now, rest, *report_, iterations, again);
+    if (trial && !apart) work_ += trial->work;
+    return trial;
+  }
+
   /// A line of the log: why it was refused, or that it was not.
   void tell(const std::optional<Trial>& trial, PlanFrom from) const {
     const Logger& logger = now_->options->search.logger;
@@ -182,15 +190,37 @@ void as_planned_or_with_a_hand(const Rest& rest, Now& now, Trials& trials) {
   }
 }
 
-/// To the scene's goal, by the plan's own sequence or with another step.
-void go_to_goal(Rest& rest, Now& now, Trials& trials) {
-  stand_on(rest, now.options->phases_min, now.similarity);
-  as_planned_or_with_a_hand(rest, now, trials);
-  if (Rest elsewhere = rest; now.options->other_sequences && stand_on_others(elsewhere, *now.scene, *now.robot)) {
-    now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, elsewhere);
-    trials.make(now, elsewhere, PlanFrom::other_sequence);
+/// So many ways to the goal are tried. Chosen: each takes as long as the plan's own sequence.
+constexpr std::size_t kWaysTried = 3;
+
+/// By other steps to the goal than those of the plan, from what the rest begins with.
+void go_another_way(const Rest& begun, const Now& now, Trials& trials) {
+  std::size_t tried = 0;
+  for (const Rest& way : ways_on(begun, *now.scene, *now.robot, now.similarity)) {
+    if (trials.solved() || trials.out_of_time() || tried++ == kWaysTried) return;
+    Now there = now;
+    there.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, way);
+    trials.make(there, way, PlanFrom::other_sequence, true);
   }
-  if (!now.options->other_sequences || (trials.best() && hopeless(*trials.best()))) return;
+}
+
+/// To the scene's goal, by the plan's own sequence, with another step, or by other steps where that does not lead there
+/// (any more).
+void go_to_goal(Rest& rest, Now& now, Trials& trials) {
+  const Rest begun = rest;
+  const bool others = now.options->other_sequences;
+  const bool elsewhere = ends_elsewhere(rest, *now.scene, *now.robot);
+  const bool gone = stands_on_what_is_gone(rest, *now.scene, *now.robot);
+  stand_on(rest, now.options->phases_min, now.similarity);
+  const bool leads_on = !elsewhere || changes_contacts(rest);
+  if (leads_on) as_planned_or_with_a_hand(rest, now, trials);
+  if (Rest there = rest; others && stand_on_others(there, *now.scene, *now.robot)) {
+    now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, there);
+    trials.make(now, there, PlanFrom::other_sequence);
+  }
+  if (others && (elsewhere || gone) && now.options->max_work > 0) go_another_way(begun, now, trials);
+  if (!leads_on && !trials.best()) as_planned_or_with_a_hand(rest, now, trials);
+  if (!others || (trials.best() && hopeless(*trials.best()))) return;
   for (const Rest& other : other_steps(rest, *now.robot, now.similarity)) {
     if (trials.done()) return;
     trials.make(now, other, PlanFrom::other_sequence);

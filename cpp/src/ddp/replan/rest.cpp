@@ -193,6 +193,12 @@ bool begin_with(Rest& rest, const Measured& measured, const ContactState& contac
   return true;
 }
 
+bool changes_contacts(const Rest& rest) {
+  for (int k = 1; k <= rest.size(); ++k)
+    if (rest.contacts(k) != rest.contacts(0)) return true;
+  return false;
+}
+
 void stand_on(Rest& rest, int phases_min, const Similarity& similarity) {
   while (rest.size() < phases_min) {
     rest.insert(rest.size(), rest.plan.final_contacts, kStanding_s * similarity.time);

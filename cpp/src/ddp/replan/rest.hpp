@@ -53,6 +53,9 @@ bool begin_with(Rest& rest, const Measured& measured, const ContactState& contac
 /// Phases of a plan before time t [s], latest first: as many as are looked at.
 std::vector<Past> past_of(const Plan& previous, double t);
 
+/// Whether anything is made or broken after the phase under way.
+bool changes_contacts(const Rest& rest);
+
 /// Standing phases at the end, so that there are at least so many phases.
 void stand_on(Rest& rest, int phases_min, const Similarity& similarity);
 

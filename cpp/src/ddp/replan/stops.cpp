@@ -69,6 +69,15 @@ Rest under_way(const Rest& rest) {
 
 }  // namespace
 
+bool stands_on_what_is_gone(const Rest& rest, const Scene& scene, const Robot& robot) {
+  for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e)
+    for (int k = 1; k <= rest.size(); ++k)
+      if (const int surface = rest.surface(k, e);
+          surface != kFree && !may_touch(scene.surfaces[surface], robot.end_effectors[e]))
+        return true;
+  return false;
+}
+
 bool stand_on_others(Rest& rest, const Scene& scene, const Robot& robot) {
   bool changed = false;
   for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e) {

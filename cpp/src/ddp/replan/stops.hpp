@@ -10,6 +10,9 @@
 /// What to do where the planned contacts are not to be had any more.
 namespace mcplan::ddp {
 
+/// Whether the rest has end-effectors on surfaces that they may not touch (any more).
+bool stands_on_what_is_gone(const Rest& rest, const Scene& scene, const Robot& robot);
+
 /// The rest with other surfaces where it has end-effectors on surfaces that they may not touch (any more): for each of
 /// these contacts the surface that is nearest to its foothold. False: there was nothing to change, or nothing else.
 bool stand_on_others(Rest& rest, const Scene& scene, const Robot& robot);

@@ -6,6 +6,7 @@
 
 #include "ddp/best_plan.hpp"
 #include "ddp/constants.hpp"
+#include "ddp/near_miss.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
 #include "plan/swings.hpp"
@@ -15,8 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The problem of a sequence from the measured state.
-Problem pose(const Now& now, const Rest& rest) {
+/// The problem of a sequence from the measured state, inside of its limits by what was `missed` of them.
+Problem pose(const Now& now, const Rest& rest, Tuning& tuning, const std::vector<Violation>& missed) {
   Options with = now.options->search;
   with.phases = rest.size();
   with.initial_sequence.clear();
@@ -26,6 +27,8 @@ Problem pose(const Now& now, const Rest& rest) {
   with.allow_flight = true;  // where the sequence has one, somebody has planned it
   with.min_contacts = 0;
   Problem problem(part_of(*now.scene, now.surfaces), *now.robot, with);
+  tuning = problem.tuning();
+  tighten(problem, tuning, missed);
   ContactState contacts;
   for (int e : problem.active) {
     const int surface = now.measured.contacts[e];
@@ -85,17 +88,17 @@ double finishing_s(const Problem& problem) { return 1e-3 * kFinishing_ms * probl
 
 }  // namespace
 
-std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, int iterations, const Plan* from) {
-  Problem problem = pose(now, rest);
+std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, int iterations, const Again* again) {
+  Tuning tuning;
+  Problem problem = pose(now, rest, tuning, again ? again->missed : std::vector<Violation>());
   Incumbent at = from_plan(problem, rest.plan, 0);
   if (!problem.rules.valid(at.sequence)) return std::nullopt;
   at.trajectory.x.front() = problem.start;
   hold_on_to(problem, at, rest, now.options->committed_s);
-  Tuning tuning = problem.tuning();
-  if (from) {
-    at = from_plan(problem, *from, 0);
+  if (again) {
+    at = from_plan(problem, again->from, 0);
     at.trajectory.x.front() = problem.start;
-    tuning.hold_joints = true;
+    tuning.hold_joints = tuning.hold_joints || again->hold_joints;
   }
   const Deadline solving = now.deadline->reserving(finishing_s(problem));
   Search search(problem, solving, report);
@@ -148,6 +151,12 @@ bool can_be_followed(const Trial& trial) {
 
 bool asks_too_much_of_joints(const Trial& trial) {
   return trial.exact && !trial.check.ok() && trial.check.worst().name == "joint_torque";
+}
+
+bool misses_by_little(const Trial& trial) {
+  if (!trial.exact || trial.planned || trial.check.ok() || !trial.check.complete) return false;
+  if (trial.check.checked_until_s < trial.plan.duration()) return false;
+  return violation_ratio(trial.check.worst()) <= kAcceptable;
 }
 
 bool hopeless(const Trial& trial) { return !trial.ok() && trial.evaluation.cost > kHopelessWithMore; }

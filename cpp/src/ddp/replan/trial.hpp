@@ -37,15 +37,24 @@ struct Trial {
   bool ok() const { return exact && !planned && check.ok() && !(check.checked_until_s < plan.duration()); }
 };
 
+/// A plan that is gone on from, and what is done about what was wrong with it.
+struct Again {
+  Plan from;
+  bool hold_joints = false;            ///< rows for the limits of joints, which cost time
+  std::vector<Violation> missed = {};  ///< limits that are planned so much further inside
+};
+
 /// The optimum of a sequence from the measured state after so many iterations at most, as a plan, checked; none where
-/// the scene's rules do not allow it. With `from`, a plan that was found so, from there and with rows for the limits of
-/// joints, which cost time.
+/// the scene's rules do not allow it. With `again`, from a plan that was found so.
 std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, int iterations,
-                             const Plan* from = nullptr);
+                             const Again* again = nullptr);
 
 /// Whether rows for the limits of joints may mend what is wrong with it. (Those of speed do not: what a start
 /// violates.)
 bool asks_too_much_of_joints(const Trial& trial);
+
+/// Whether it is acceptable, though not accepted: planned a little further inside of its limits it may be.
+bool misses_by_little(const Trial& trial);
 
 /// Whether it is so far from its limits that another step does not help either.
 bool hopeless(const Trial& trial);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -12,6 +13,11 @@
 namespace mcplan::ddp {
 
 inline bool is_foot(const Robot& robot, int e) { return robot.end_effectors[e].kind == "foot"; }
+
+/// A vector in the ground plane, turned to the left by an angle [rad].
+inline Eigen::Vector2d turned(const Eigen::Vector2d& v, double yaw) {
+  return {std::cos(yaw) * v.x() - std::sin(yaw) * v.y(), std::sin(yaw) * v.x() + std::cos(yaw) * v.y()};
+}
 
 /// A surface, and the place on it that is nearest to where an end-effector is wanted.
 struct Found {

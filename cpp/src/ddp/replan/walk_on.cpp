@@ -24,10 +24,6 @@ struct Pose {
   double yaw = 0.0;
 };
 
-Vector2d turned(const Vector2d& v, double yaw) {
-  return {std::cos(yaw) * v.x() - std::sin(yaw) * v.y(), std::sin(yaw) * v.x() + std::cos(yaw) * v.y()};
-}
-
 /// The way that a command leads: at constant velocity and rate of turning, then slower and slower until it stops at the
 /// end.
 class Way {

@@ -2,9 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
+#include <vector>
+
 #include "ddp/replan/rest.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/ddp/plan.hpp"
+#include "mcplan/mcplan.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "scenes.hpp"
 
@@ -153,4 +157,22 @@ TEST_CASE("what is wrong with a replan is named") {
   for (Stance* stance : {&renamed.start, &renamed.goal})
     for (auto& [who, surface] : stance->contacts) surface = "other";
   CHECK_THROWS_AS(ddp::replan(walk(), 1.0, measured, renamed, walk().robot), InvalidScene);
+}
+
+TEST_CASE("a plan that misses a limit by little between its instants is brought within it") {
+  const Plan plan = ddp::plan(load_scene("stepping_stones"), load_robot("g1")).plan;
+  for (const double t : {0.1, 0.5, 1.0, 2.0}) {
+    CAPTURE(t);
+    std::vector<std::string> lines;
+    ReplanOptions options;
+    options.search.logger = [&](LogLevel, const std::string& line) {
+      if (line.rfind("replan, ", 0) == 0) lines.push_back(line);
+    };
+    const PlanResult result = ddp::replan(plan, t, {rest_of(plan, t).plan.knots.front(), {}}, options);
+    INFO(result.report.message);
+    REQUIRE(lines.size() == 2);
+    CHECK(lines.front().find("over the limit") != std::string::npos);
+    CHECK(result.report.plan_from == PlanFrom::same_sequence);
+    CHECK(check(result.plan, plan.scene, plan.robot).ok());
+  }
 }
