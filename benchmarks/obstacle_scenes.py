@@ -88,7 +88,7 @@ def step_up(height: float, *, table: bool = False) -> mp.Scene:
     surfaces = [slab("floor", (-2.0, 0.4), (-2.0, 2.0)), slab("platform", (0.4, 3.0), (-2.0, 2.0), height, height)]
     if table:
         surfaces += [
-            solid(f"table_{side}", (0.1, 0.9), (y - 0.15, y + 0.15), 0.9)
+            solid(f"table_{side}", (0.3, 0.9), (y - 0.15, y + 0.15), 0.9)
             for side, y in (("left", 0.55), ("right", -0.55))
         ]
     return scene(surfaces, (1.2, 0.0, height), on="platform")
