@@ -356,8 +356,11 @@ Found WaysToGoal::search(Report& report) const {
     const bool told = ahead && ahead->found && append(report, std::move(ahead->report), ahead->before, *options_);
     Found found = told ? std::move(*ahead->found) : search_along(way, report);
     tell(way, found);
-    if (!way.course.route.empty()) try_more_phases(report, found);
-    if (way.over_bars) mend(report, found);
+    // What is nearly a plan is mended in less time than it takes to look at more phases. (Measured: a block of 0.3 m in
+    // the way of talos, 0.17 in 6 s; in more phases 0.25 in 9 s.)
+    const bool detour = !way.course.route.empty();
+    if (detour || way.over_bars) mend(report, found);
+    if (detour) try_more_phases(report, found);
     const bool its_own = found.ending == Ending::iteration_limit && report.iterations < options_->max_iterations;
     if (!ended_by_itself(found.ending) && !its_own) cut_short = found.ending;
     if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
