@@ -70,4 +70,5 @@ def test_the_end_may_be_missed_by_rounding(plan):
     """Sums of steps end a bit after it; ``at`` takes them, too."""
     end_s = plan.duration()
     samples = plan.sample([-1e-12, end_s + 1e-12])
-    assert (samples.com_W == plan.sample([0.0, end_s]).com_W).all()
+    fastest_m_s = 10.0
+    assert np.abs(samples.com_W - plan.sample([0.0, end_s]).com_W).max() <= 1e-12 * fastest_m_s

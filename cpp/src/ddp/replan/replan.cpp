@@ -71,10 +71,14 @@ class Trials {
   void take(std::optional<Trial> trial, PlanFrom from) {
     tell(trial, from);
     if (!trial || (best_ && !better(*trial, *best_))) return;
+    if (sound_only_ && status_of(*trial) == Status::infeasible) return;
     best_ = std::move(trial);
     best_ratio_ = ratio_;
     report_->plan_from = from;
   }
+
+  /// From now on a plan that is not even acceptable is none.
+  void take_sound_only(bool only) { sound_only_ = only; }
 
   std::optional<Trial>& best() { return best_; }
 
@@ -126,7 +130,8 @@ class Trials {
   const Now* now_;
   Report* report_;
   std::optional<Trial> best_;
-  int work_ = 0;              ///< iterations times phases
+  int work_ = 0;  ///< iterations times phases
+  bool sound_only_ = false;
   bool held_joints_ = false;  ///< rows for the limits of joints have been tried
   double longest_s_ = 0.0, ratio_ = 1.0, best_ratio_ = 1.0;
 };
@@ -193,15 +198,18 @@ void as_planned_or_with_a_hand(const Rest& rest, Now& now, Trials& trials) {
 /// So many ways to the goal are tried. Chosen: each takes as long as the plan's own sequence.
 constexpr std::size_t kWaysTried = 3;
 
-/// By other steps to the goal than those of the plan, from what the rest begins with.
+/// By other steps to the goal than those of the plan, from what the rest begins with. Where they exceed limits, a stand
+/// is better than to begin on them.
 void go_another_way(const Rest& begun, const Now& now, Trials& trials) {
   std::size_t tried = 0;
+  trials.take_sound_only(true);
   for (const Rest& way : ways_on(begun, *now.scene, *now.robot, now.similarity)) {
-    if (trials.solved() || trials.out_of_time() || tried++ == kWaysTried) return;
+    if (trials.solved() || trials.out_of_time() || tried++ == kWaysTried) break;
     Now there = now;
     there.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, way);
     trials.make(there, way, PlanFrom::other_sequence, true);
   }
+  trials.take_sound_only(false);
 }
 
 /// To the scene's goal, by the plan's own sequence, with another step, or by other steps where that does not lead there
@@ -212,6 +220,7 @@ void go_to_goal(Rest& rest, Now& now, Trials& trials) {
   const bool elsewhere = ends_elsewhere(rest, *now.scene, *now.robot);
   const bool gone = stands_on_what_is_gone(rest, *now.scene, *now.robot);
   stand_on(rest, now.options->phases_min, now.similarity);
+  now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
   const bool leads_on = !elsewhere || changes_contacts(rest);
   if (leads_on) as_planned_or_with_a_hand(rest, now, trials);
   if (Rest there = rest; others && stand_on_others(there, *now.scene, *now.robot)) {
