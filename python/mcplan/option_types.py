@@ -164,6 +164,9 @@ class DdpReplanOptions(DdpOptions, total=False):
     """Number of phases that are planned ahead under a velocity command."""
     other_sequences: bool
     """Try sequences near to the plan's own where that does not do."""
+    crossing: bool
+    """Where the plan's own sequence does not catch a push outward over the foot that stands, the foot in the air may
+    step across it, in front of it or behind it."""
     max_work: int
     """Iterations times phases, over all sequences, after which no other one is tried: 1000 take about 30 ms."""
 

@@ -119,6 +119,14 @@ class Problem {
     double weight = 0.0;
   };
   std::vector<Foothold> kept;
+  bool free_end = false;  ///< it ends at rest wherever that is, likewise: places at the end are as free as others
+  /// Soles that are kept apart along a given level axis, from the other's to the one's, at the knot at which a foot
+  /// lands that steps across the other.
+  struct Across {
+    int knot = 0, l = 0, other = 0;
+    Eigen::Vector2d axis = Eigen::Vector2d::Zero();
+  };
+  std::vector<Across> across;
   bool measured = false;                                ///< starts from a measured state
   std::vector<Eigen::Vector3d> start_end_velocities_W;  ///< [m/s] by end-effector of the robot, where measured
   double start_slack = 0.0;  ///< time within which what a measured start violates by itself is made good

@@ -36,6 +36,17 @@ SoleGap sole_gap(const EndLimits& one, double yaw, const EndLimits& other, doubl
   return best;
 }
 
+SoleGap sole_gap_at(const Problem& problem, int knot, int l, double yaw, int other, double other_yaw,
+                    const Vector2d& apart) {
+  const EndLimits &one = problem.limits[l], &beside = problem.limits[other];
+  for (const Problem::Across& across : problem.across) {
+    if (across.knot != knot || std::minmax(across.l, across.other) != std::minmax(l, other)) continue;
+    const Vector2d n = across.l == l ? across.axis : Vector2d(-across.axis);
+    return {n, extent(one.half_size, yaw, n) + extent(beside.half_size, other_yaw, n)};
+  }
+  return sole_gap(one, yaw, beside, other_yaw, apart);
+}
+
 double sole_room(const EndLimits& one, const EndLimits& other) {
   const Vector2d apart = (one.nominal - other.nominal).head<2>().cwiseAbs() - one.half_size - other.half_size;
   return std::min(kSoleRoom, kNominalRoom * apart.maxCoeff());

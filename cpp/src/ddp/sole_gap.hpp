@@ -17,6 +17,10 @@ struct SoleGap {
 SoleGap sole_gap(const EndLimits& one, double yaw, const EndLimits& other, double other_yaw,
                  const Eigen::Vector2d& apart);
 
+/// The same at a knot of a motion, or along the axis of a step across (Problem::across).
+SoleGap sole_gap_at(const Problem& problem, int knot, int l, double yaw, int other, double other_yaw,
+                    const Eigen::Vector2d& apart);
+
 /// Room that soles of feet keep: kSoleRoom, or less if the nominal stance has less.
 double sole_room(const EndLimits& one, const EndLimits& other);
 

@@ -37,8 +37,10 @@ PlanResult first_usable(const Question& question) {
   const double t = std::clamp(question.state.time_s - question.begins_s, 0.0, question.plan->duration());
   const Scene& scene = question.scene ? *question.scene : question.plan->scene;
   std::optional<PlanResult> found;
+  ddp::ReplanOptions options = question.options.replan;
   for (const Robot& robot : *question.robots) {
-    PlanResult result = ddp::replan(*question.plan, t, question.state.measured, scene, robot, question.options.replan);
+    PlanResult result = ddp::replan(*question.plan, t, question.state.measured, scene, robot, options);
+    options.crossing = true;  // those after the first are for emergencies
     const bool usable = follows(result.report, question.options.period_s);
     // One that keeps all limits for a while only, or that stops, is second to one that leads on to the end within wider
     // limits.

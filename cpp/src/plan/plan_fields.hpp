@@ -76,6 +76,7 @@ struct Names<PlanFrom> {
       {"search", PlanFrom::search, "It is no replan."},
       {"same_sequence", PlanFrom::same_sequence, "The contacts of the plan under way, with what was added at its end."},
       {"other_sequence", PlanFrom::other_sequence, "Another step was put in."},
+      {"recovery", PlanFrom::recovery, "Steps that catch a push, and a stand wherever that is."},
       {"stop", PlanFrom::stop, "A stand as soon as may be: nothing that leads on can be followed."},
       {"previous_plan", PlanFrom::previous_plan,
        "What is left of the plan under way, as it was planned: nothing better was found in time."}};

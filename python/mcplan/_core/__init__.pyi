@@ -1757,6 +1757,8 @@ class PlanFrom:
 
       other_sequence : Another step was put in.
 
+      recovery : Steps that catch a push, and a stand wherever that is.
+
       stop : A stand as soon as may be: nothing that leads on can be followed.
 
       previous_plan : What is left of the plan under way, as it was planned: nothing better was found in time.
@@ -1765,6 +1767,7 @@ class PlanFrom:
     __members__: typing.ClassVar[dict[str, PlanFrom]]
     other_sequence: typing.ClassVar[PlanFrom]
     previous_plan: typing.ClassVar[PlanFrom]
+    recovery: typing.ClassVar[PlanFrom]
     same_sequence: typing.ClassVar[PlanFrom]
     search: typing.ClassVar[PlanFrom]
     stop: typing.ClassVar[PlanFrom]

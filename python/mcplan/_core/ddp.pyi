@@ -760,6 +760,7 @@ class ReplanOptions:
         phases_min: typing.SupportsInt | typing.SupportsIndex = 6,
         horizon: typing.SupportsInt | typing.SupportsIndex = 12,
         other_sequences: bool = True,
+        crossing: bool = False,
         max_work: typing.SupportsInt | typing.SupportsIndex = 1000,
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -775,6 +776,13 @@ class ReplanOptions:
         """
     @committed_s.setter
     def committed_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def crossing(self) -> bool:
+        """
+        Where the plan's own sequence does not catch a push outward over the foot that stands, the foot in the air may step across it, in front of it or behind it.
+        """
+    @crossing.setter
+    def crossing(self, arg0: bool) -> None: ...
     @property
     def horizon(self) -> int:
         """

@@ -323,7 +323,7 @@ class Loop:
         if not update.usable or update.plan is None:
             self.failing_s = min(self.failing_s, update.begins_s)
             return
-        stands = update.plan_from == "stop" or self.planner.command == STAND
+        stands = update.plan_from in ("recovery", "stop") or self.planner.command == STAND
         self.failing_s, self.stopping, self.other_ground = np.inf, False, False
         self.controller.set_plan(update.plan, update.begins_s)
         self.planner.take_over(update)

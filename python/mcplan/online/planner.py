@@ -92,7 +92,8 @@ class Planner:
         plan, begins_s: The plan under way, and when it began.
         command: May be changed at any time; it holds for what is computed from then on.
         scene: Instead of the plan's own, for ground that was measured anew; None: the plan's own.
-        robots: Robots to plan for, one after the other until a plan is usable: after the plan's own, one with wider limits.
+        robots: Robots to plan for, one after the other until a plan is usable: after the plan's own, one with wider limits,
+            whose feet may step across each other.
     """
 
     def __init__(
@@ -203,8 +204,9 @@ class Planner:
         found: PlanResult | None = None
         try:
             t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
-            for robot in self.robots:
-                result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, robot, dict(named))
+            for i, robot in enumerate(self.robots):
+                told = {"crossing": i > 0, **named}  # those after the first are for emergencies
+                result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, robot, told)
                 usable = follows(result.report, self.period_s)
                 if found is None or (usable and not follows(found.report, self.period_s)):
                     found = result

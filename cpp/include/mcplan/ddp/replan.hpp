@@ -45,6 +45,7 @@ struct ReplanOptions {
   std::optional<VelocityCommand> command;  ///< walk on so instead of to the goal
   int horizon = 12;                        ///< number of phases that are planned ahead under a command
   bool other_sequences = true;             ///< where the plan's own sequence does not do, try others near to it
+  bool crossing = false;                   ///< and a step of the foot in the air across the one that stands
 
   /// Iterations times phases, over all sequences, after which no other one is tried: a bound of the time of a call
   /// that, unlike time_limit_s, gives the same plan on any machine. The plan's own sequence gets its iterations anyway,

@@ -44,6 +44,7 @@ enum class PlanFrom {
   search,          ///< no replan
   same_sequence,   ///< the contacts of the plan under way, as measured, with what was added at its end
   other_sequence,  ///< another step was put in
+  recovery,        ///< steps that catch a push, and a stand wherever that is
   stop,            ///< a stand as soon as may be, not the goal: nothing that leads on can be followed
   previous_plan,   ///< what is left of the plan under way, as it was planned: nothing better was found in time
 };

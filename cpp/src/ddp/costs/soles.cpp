@@ -28,8 +28,8 @@ class Soles final : public CostTerm {
       const double room = sole_room(problem.limits[step.l], problem.limits[other]);
       if (!(room > 0.0)) continue;
       const Vector2d apart = step.x.segment<2>(at.end(step.l)) - step.x.segment<2>(at.end(other));
-      const SoleGap gap = sole_gap(problem.limits[step.l], step.sole_yaw, problem.limits[other],
-                                   (*step.sole_yaws)[static_cast<std::size_t>(other)], apart);
+      const SoleGap gap = sole_gap_at(problem, step.k, step.l, step.sole_yaw, other,
+                                      (*step.sole_yaws)[static_cast<std::size_t>(other)], apart);
       const double beyond = room + gap.reach - gap.axis.dot(apart);
       if (!(beyond > 0.0)) continue;
       const double weight = step.schedule.interior_weight;

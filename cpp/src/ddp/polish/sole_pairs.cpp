@@ -39,7 +39,7 @@ void Limits::part_soles(const Trajectory& trajectory) {
     const auto place = [&](int l) { return trajectory.x[pair.k].segment<2>(problem.layout.end(l)); };
     const Eigen::Vector2d apart = place(pair.l) - place(pair.other);
     const double yaw = trajectory.knot_yaw[pair.k][pair.l], other_yaw = trajectory.knot_yaw[pair.k][pair.other];
-    const SoleGap gap = sole_gap(problem.limits[pair.l], yaw, problem.limits[pair.other], other_yaw, apart);
+    const SoleGap gap = sole_gap_at(problem, pair.k, pair.l, yaw, pair.other, other_yaw, apart);
     Linear& row = phases_[pair.k].linear[pair.linear];
     row.offset = pair.room + gap.reach;
     for (int j = 0; j < 2; ++j) {

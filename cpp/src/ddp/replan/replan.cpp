@@ -12,9 +12,10 @@
 #include "ddp/replan/given.hpp"
 #include "ddp/replan/hands.hpp"
 #include "ddp/replan/other_steps.hpp"
+#include "ddp/replan/recovery.hpp"
 #include "ddp/replan/replan_fields.hpp"
 #include "ddp/replan/stops.hpp"
-#include "ddp/replan/trial.hpp"
+#include "ddp/replan/trials.hpp"
 #include "ddp/replan/walk_on.hpp"
 #include "ddp/replan/ways_on.hpp"
 #include "ddp/replan_fit.hpp"
@@ -28,154 +29,55 @@
 namespace mcplan::ddp {
 namespace {
 
-Status status_of(const Trial& trial) {
-  if (trial.ok()) return Status::solved;
-  const bool seen_in_full = trial.check.complete && !(trial.check.checked_until_s < trial.plan.duration());
-  if (trial.ending == Ending::time_limit || !seen_in_full) return Status::time_limit;
-  if (trial.ending == Ending::interrupted) return Status::interrupted;
-  if (trial.ending == Ending::iteration_limit) return Status::iteration_limit;
-  return trial.exact && violation_ratio(trial.check.worst()) <= kAcceptable ? Status::acceptable : Status::infeasible;
-}
-
-const char* name_of(PlanFrom from) {
-  if (from == PlanFrom::same_sequence) return "the plan's own sequence";
-  if (from == PlanFrom::stop) return "a stand";
-  return from == PlanFrom::other_sequence ? "other steps or a hand" : "the plan as it was planned";
-}
-
-/// The trials of one replan, best first, and what is told of them.
-class Trials {
- public:
-  Trials(const Now& now, Report& report) : now_(&now), report_(&report) {}
-
-  /// Whether there is no need, or no time, for another one.
-  bool done() const { return solved() || too_late() || (best_ && iterations_left(best_->plan) < kWorthwhile); }
-
-  /// With `apart` it gets its iterations whatever work others have been, and takes none from them.
-  void make(const Now& now, const Rest& rest, PlanFrom from, bool apart = false) {
-    const double begin_s = now_->deadline->elapsed_s();
-    std::optional<Trial> trial = attempt(now, rest, apart, nullptr);
-    Again again;
-    again.hold_joints = trial && !held_joints_ && asks_too_much_of_joints(*trial);
-    if (trial && !again.hold_joints && misses_by_little(*trial)) again.missed = trial->check.violations();
-    const bool worth_it = again.hold_joints || !again.missed.empty();
-    if (worth_it) again.from = trial->plan;
-    take(std::move(trial), from);
-    held_joints_ = held_joints_ || again.hold_joints;
-    // What is missed by little takes few iterations: they are not counted.
-    const bool uncounted = apart || !again.missed.empty();
-    if (worth_it && !(uncounted ? solved() || too_late() : done())) take(attempt(now, rest, uncounted, &again), from);
-    longest_s_ = std::max(longest_s_, now_->deadline->elapsed_s() - begin_s);
+/// By steps that catch a push, to a stand wherever that is.
+void recover(const Rest& rest, const Now& now, Trials& trials) {
+  if (!trials.begin_recovery()) return;
+  for (const Recovery& recovery : recoveries(rest, now)) {
+    if (trials.solved() || trials.out_of_time()) return;
+    Now there = now;
+    there.robot = &recovery.robot;
+    if (!recovery.rest.across) there.given_robot = now.robot;
+    there.surfaces = surfaces_of(*now.scene, recovery.robot, now.measured, recovery.rest);
+    trials.make(there, recovery.rest, PlanFrom::recovery, true);
   }
-
-  void take(std::optional<Trial> trial, PlanFrom from) {
-    tell(trial, from);
-    if (!trial || (best_ && !better(*trial, *best_))) return;
-    if (sound_only_ && status_of(*trial) == Status::infeasible) return;
-    best_ = std::move(trial);
-    best_ratio_ = ratio_;
-    report_->plan_from = from;
-  }
-
-  /// From now on a plan that is not even acceptable is none.
-  void take_sound_only(bool only) { sound_only_ = only; }
-
-  std::optional<Trial>& best() { return best_; }
-
-  /// Whether nothing more may be begun.
-  bool out_of_time() const { return now_->deadline->passed() || (best_ && best_->ending == Ending::interrupted); }
-
-  /// Whether there is no time for another one that takes as long as the longest.
-  bool too_late() const {
-    return out_of_time() || (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_);
-  }
-
-  bool solved() const { return best_ && best_->ok(); }
-
-  /// Whether a controller may follow the best one for the next two steps.
-  bool usable() const { return best_ && (best_->ok() || can_be_followed(*best_)); }
-
-  /// Ratio of the velocity command that the trials from now on follow.
-  void followed(double ratio) { ratio_ = ratio; }
-  double best_ratio() const { return best_ratio_; }
-
- private:
-  std::optional<Trial> attempt(const Now& now, const Rest& rest, bool apart, const Again* again) {
-    const int iterations = best_ && !apart ? iterations_left(best_->plan) : kReplanIterations;
-    std::optional<Trial> trial = try_out(now, rest, *report_, iterations, again);
-    if (trial && !apart) work_ += trial->work;
-    return trial;
-  }
-
-  /// A line of the log: why it was refused, or that it was not.
-  void tell(const std::optional<Trial>& trial, PlanFrom from) const {
-    const Logger& logger = now_->options->search.logger;
-    if (!logger) return;
-    std::ostringstream line;
-    line << "replan, " << name_of(from) << ": ";
-    if (!trial)
-      line << "the scene's rules do not allow it";
-    else
-      line << trial->plan.phases.size() << " phases, cost " << model::digits(trial->evaluation.cost, "%.4g") << ", "
-           << (trial->ok() ? std::string("accepted") : trial->check.worst().to_string());
-    logger(LogLevel::info, line.str());
-  }
-
-  /// Iterations that the work which is left allows a sequence about as long as this plan's.
-  int iterations_left(const Plan& plan) const {
-    const int left = now_->options->max_work - work_;
-    return std::clamp(left / std::max(1, static_cast<int>(plan.phases.size())), 0, kReplanIterations);
-  }
-
-  const Now* now_;
-  Report* report_;
-  std::optional<Trial> best_;
-  int work_ = 0;  ///< iterations times phases
-  bool sound_only_ = false;
-  bool held_joints_ = false;  ///< rows for the limits of joints have been tried
-  double longest_s_ = 0.0, ratio_ = 1.0, best_ratio_ = 1.0;
-};
-
-std::string message_of(const Trial& best, const Report& report) {
-  std::ostringstream message;
-  if (report.plan_from == PlanFrom::previous_plan)
-    message << "nothing better than the plan as it was planned was found in time";
-  else if (best.ok())
-    message << "the checker accepts the plan (" << name_of(report.plan_from) << ")";
-  else if (!best.exact)
-    message << "the contacts could not be made exact";
-  else if (!best.check.complete || best.check.ok())
-    message << "stopped before the checker had seen the plan in full";
-  else
-    message << "the best plan violates " << report.worst_violation.to_string();
-  if (!report.start_violations.empty())
-    message << "; the measured state violates " << report.start_violations.front().to_string();
-  if (!best.ok()) message << "; all limits are kept until " << model::digits(report.kept_until_s, "%.3g") << " s";
-  return message.str();
-}
-
-void conclude(Trials& trials, Report& report, PlanResult& out) {
-  std::optional<Trial>& best = trials.best();
-  if (!best) {
-    report.status = Status::no_sequence;
-    report.message = "the scene's rules allow no sequence that goes on from the measured contacts";
-    return;
-  }
-  report.status = status_of(*best);
-  report.worst_violation = best->check.worst();
-  report.start_violations = best->check.start;
-  report.kept_until_s = best->exact ? best->check.kept_until_s : 0.0;
-  report.warnings = best->check.warnings;
-  report.cost = best->evaluation.cost;
-  report.message = message_of(*best, report);
-  if (trials.best_ratio() < 1.0)
-    report.message += "; " + model::digits(trials.best_ratio(), "%.2g") + " of the velocity command is followed";
-  out.plan = std::move(best->plan);
 }
 
 /// Pushed by more than this [m/s] the robot reaches for a hold before it tries to go on as planned. Measured on talos
 /// at 12 instants: its own sequence is accepted at none of them at 0.5 m/s towards a wall, at 7 at 0.35 m/s.
 constexpr double kHardPush_m_s = 0.4;
+/// Off the plan by more than this velocity [m/s] it catches itself before other steps are tried, or where its own
+/// sequence drops it. Chosen: a push of 100 N for 0.1 s moves TALOS by 0.11 m/s.
+constexpr double kPush_m_s = 0.08;
+/// Weights on the feet between which a robot stays upright, and for how long that is looked at [s]. Walks of TALOS and
+/// G1 have 0.9 to 1.1; those that answer a push by dropping the CoM, 0.7 and then 1.8. Chosen.
+constexpr double kLeastWeight = 0.8, kMostWeight = 1.4, kUpright_s = 1.5;
+
+/// Whether a plan bears about the robot's weight at any time: one that drops the CoM asks much of knees later on.
+bool stays_upright(const Plan& plan, const Robot& robot, const Similarity& similarity) {
+  double begin_s = 0.0;
+  for (const Phase& phase : plan.phases) {
+    if (begin_s > kUpright_s * similarity.time) break;
+    double stiffness = 0.0;
+    for (const Contact& contact : phase.contacts) stiffness += contact.stiffness;
+    const double weights = stiffness * robot.com_height / plan.scene.gravity;
+    if (weights < kLeastWeight || weights > kMostWeight) return false;
+    begin_s += phase.duration;
+  }
+  return true;
+}
+
+/// Steps that catch a push, where the robot is pushed and what has been found does not do, or drops it though the plan
+/// under way did not.
+void recover_if_pushed(const Rest& rest, const Now& now, Trials& trials) {
+  if (!(now.pushed_W.norm() > kPush_m_s * now.similarity.velocity())) return;
+  const bool dropped = trials.solved() && !stays_upright(trials.best()->plan, *now.robot, now.similarity) &&
+                       stays_upright(rest.plan, *now.robot, now.similarity);
+  if (trials.solved() && !dropped) return;
+  std::pair<std::optional<Trial>, PlanFrom> aside;
+  if (dropped) aside = trials.put_aside();
+  recover(rest, now, trials);
+  trials.put_back(std::move(aside));
+}
 
 /// By the plan's own sequence, or with a hand where the robot is pushed towards what it can hold on to; which of them
 /// comes first is a matter of how hard. The own one is always tried while there is time.
@@ -187,6 +89,7 @@ void as_planned_or_with_a_hand(const Rest& rest, Now& now, Trials& trials) {
   now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
   const bool hard = now.pushed_W.norm() > kHardPush_m_s * now.similarity.velocity() && !hands.empty();
   if (!hard) trials.make(now, rest, PlanFrom::same_sequence);
+  if (now.options->other_sequences && now.options->max_work > 0 && hands.empty()) recover_if_pushed(rest, now, trials);
   for (std::size_t i = 0; i < hands.size() && !trials.solved() && !trials.out_of_time(); ++i) {
     Now there = now;
     there.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, hands[i]);
@@ -227,7 +130,10 @@ void go_to_goal(Rest& rest, Now& now, Trials& trials) {
     now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, there);
     trials.make(now, there, PlanFrom::other_sequence);
   }
-  if (others && (elsewhere || gone) && now.options->max_work > 0) go_another_way(begun, now, trials);
+  if (others && (elsewhere || gone) && now.options->max_work > 0) {
+    go_another_way(begun, now, trials);
+    if (leads_on && !gone && !trials.solved()) recover(begun, now, trials);
+  }
   if (!leads_on && !trials.best()) as_planned_or_with_a_hand(rest, now, trials);
   if (!others || (trials.best() && hopeless(*trials.best()))) return;
   for (const Rest& other : other_steps(rest, *now.robot, now.similarity)) {
@@ -323,7 +229,10 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
       follow_command(rest, now, trials);
     else
       go_to_goal(rest, now, trials);
-    if (options.other_sequences && options.max_work > 0) stop(begun, now, trials);
+    if (options.other_sequences && options.max_work > 0) {
+      if (!trials.usable()) recover(begun, now, trials);
+      stop(begun, now, trials);
+    }
   }
   if (!ended && deadline.passed() && !(trials.best() && can_be_followed(*trials.best())))
     trials.take(kept ? std::move(kept) : as_planned(planned, now), PlanFrom::previous_plan);

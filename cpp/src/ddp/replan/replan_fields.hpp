@@ -39,6 +39,10 @@ struct Fields<ddp::ReplanOptions> {
           .at_most(400),
       field("other_sequences", &Options::other_sequences, "",
             "Try sequences near to the plan's own where that does not do."),
+      field(
+          "crossing", &Options::crossing, "",
+          "Where the plan's own sequence does not catch a push outward over the foot that stands, the foot in the air "
+          "may step across it, in front of it or behind it."),
       field("max_work", &Options::max_work, "",
             "Iterations times phases, over all sequences, after which no other one is tried: 1000 take about 30 ms.")
           .not_negative());

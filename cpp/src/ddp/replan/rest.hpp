@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "ddp/contact_sequence.hpp"
@@ -16,6 +17,19 @@ struct Rest {
   std::vector<char> planned;  ///< by phase: it was planned before, so that where contacts begin in it was chosen
   int kept = std::numeric_limits<int>::max();  ///< what is planned up to this phase keeps its footholds
   std::vector<Knot> desired;                   ///< what the motion is to stay near; empty: what was planned
+
+  bool free_end = false;    ///< it ends at rest, wherever that is
+  double shortest_s = 0.0;  ///< phases may be as short; 0: as the robot's
+
+  /// A foot that steps across another: the knot at which it lands, both end-effectors, and the level axis from the
+  /// other's sole to the one's along which they are kept apart.
+  struct Across {
+    int knot = 0, foot = 0, other = 0;
+    Eigen::Vector2d axis_W = Eigen::Vector2d::Zero();
+    int via_knot = -1;  ///< where it passes the other first, on its own side of it; -1: it has done so
+    Eigen::Vector3d via_W = Eigen::Vector3d::Zero();
+  };
+  std::optional<Across> across;
 
   int size() const { return static_cast<int>(plan.phases.size()); }
   int surface(int k, int e) const { return k < size() ? plan.phases[k].contacts[e].surface : plan.final_contacts[e]; }

@@ -1,6 +1,7 @@
 #include "ddp/replan/trial.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -26,6 +27,7 @@ Problem pose(const Now& now, const Rest& rest, Tuning& tuning, const std::vector
   with.weights.rotation_end *= kEndFirmer;
   with.allow_flight = true;  // where the sequence has one, somebody has planned it
   with.min_contacts = 0;
+  if (rest.shortest_s > 0.0) with.duration_min_s = rest.shortest_s;
   Problem problem(part_of(*now.scene, now.surfaces), *now.robot, with);
   tuning = problem.tuning();
   tighten(problem, tuning, missed);
@@ -35,6 +37,7 @@ Problem pose(const Now& now, const Rest& rest, Tuning& tuning, const std::vector
     contacts.push_back(surface == kFree ? kFree : problem.scene.surface_index(now.scene->surfaces[surface].name));
   }
   problem.set_start(now.measured.state, contacts);
+  problem.free_end = rest.free_end;
   problem.start_slack = kSlackRatio * now.options->start_slack_s * now.similarity.time / problem.units.time;
   problem.first_duration = rest.plan.phases.front().duration / problem.units.time;
   return problem;
@@ -61,6 +64,16 @@ void hold_on_to(Problem& problem, const Incumbent& warm, const Rest& rest, doubl
       problem.kept.push_back({k, l, warm.trajectory.x[k].segment<3>(problem.layout.end(l)), weight});
     }
   }
+  if (rest.across) {
+    const auto index = [&](int e) {
+      return static_cast<int>(std::find(problem.active.begin(), problem.active.end(), e) - problem.active.begin());
+    };
+    problem.across.push_back(
+        {rest.across->knot, index(rest.across->foot), index(rest.across->other), rest.across->axis_W});
+    if (rest.across->via_knot > 0)
+      problem.kept.push_back(
+          {rest.across->via_knot, index(rest.across->foot), rest.across->via_W / problem.units.length, kCommitted});
+  }
   problem.first_duration_kept = rest.planned.front() && rest.plan.phases.front().duration <= committed;
 }
 
@@ -81,6 +94,18 @@ CheckResult look(const Plan& plan, const Now& now, double until_s, const StopReq
   if (!now.options->search.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
   tolerances.sample_s = std::max(tolerances.sample_s, plan.duration() / kFullInstantsMax);
   return check(plan, plan.scene, *now.robot, tolerances, stop, until_s);
+}
+
+/// The goal is where the plan ends.
+void end_there(Plan& plan) {
+  const Knot& end = plan.knots.back();
+  Stance stance;
+  stance.position_W = end.com_W - plan.robot.com_height * Vector3d::UnitZ();
+  stance.yaw = std::remainder(end.base_rpy.z(), 2.0 * M_PI);
+  for (std::size_t e = 0; e < plan.final_contacts.size(); ++e)
+    if (const int surface = plan.final_contacts[e]; surface >= 0)
+      stance.contacts[plan.robot.end_effectors[e].name] = plan.scene.surfaces[surface].name;
+  plan.scene.goal = stance;
 }
 
 /// What the last steps after the solve take of a limit: exact contacts, conversion, a look at the next steps.
@@ -124,6 +149,8 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   choose_swings(trial.plan, true, now.under_way);
   trial.plan.start_slack_s = now.options->start_slack_s * now.similarity.time;
   put_back(trial.plan, *now.scene, now.surfaces);
+  if (rest.free_end) end_there(trial.plan);
+  if (now.given_robot) trial.plan.robot = *now.given_robot;
   // In time or not, the next two steps are looked at; a limit leaves the rest of them to the next call.
   trial.check = look(trial.plan, now, late ? two_steps_s(trial.plan) : std::numeric_limits<double>::infinity(), {});
   if (late && trial.check.ok() && !late()) {
@@ -153,10 +180,10 @@ bool asks_too_much_of_joints(const Trial& trial) {
   return trial.exact && !trial.check.ok() && trial.check.worst().name == "joint_torque";
 }
 
-bool misses_by_little(const Trial& trial) {
+bool misses_by_little(const Trial& trial, double tolerances) {
   if (!trial.exact || trial.planned || trial.check.ok() || !trial.check.complete) return false;
   if (trial.check.checked_until_s < trial.plan.duration()) return false;
-  return violation_ratio(trial.check.worst()) <= kAcceptable;
+  return violation_ratio(trial.check.worst()) <= tolerances;
 }
 
 bool hopeless(const Trial& trial) { return !trial.ok() && trial.evaluation.cost > kHopelessWithMore; }

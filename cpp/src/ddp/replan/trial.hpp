@@ -22,6 +22,7 @@ struct Now {
   Similarity similarity;
   Eigen::Vector3d pushed_W = Eigen::Vector3d::Zero();  ///< [m/s] velocity of the CoM, measured minus planned
   std::vector<Swing> under_way = {};                   ///< of the plan under way, for what is in the air
+  const Robot* given_robot = nullptr;  ///< whose the plan is, where it is planned with narrower limits than its own
 };
 
 /// A sequence that was tried from the measured state, and what came of it.
@@ -54,7 +55,7 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
 bool asks_too_much_of_joints(const Trial& trial);
 
 /// Whether it is acceptable, though not accepted: planned a little further inside of its limits it may be.
-bool misses_by_little(const Trial& trial);
+bool misses_by_little(const Trial& trial, double tolerances);
 
 /// Whether it is so far from its limits that another step does not help either.
 bool hopeless(const Trial& trial);

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "ddp/replan/rest.hpp"
+#include "ddp/replan/trial.hpp"
+#include "mcplan/plan/report.hpp"
+
+namespace mcplan::ddp {
+
+/// The trials of one replan, best first, and what is told of them.
+class Trials {
+ public:
+  Trials(const Now& now, Report& report) : now_(&now), report_(&report) {}
+
+  /// Whether there is no need, or no time, for another one.
+  bool done() const;
+
+  /// With `apart` it gets its iterations whatever work others have been, and takes none from them.
+  void make(const Now& now, const Rest& rest, PlanFrom from, bool apart = false);
+
+  void take(std::optional<Trial> trial, PlanFrom from);
+
+  /// The best one so far does not count any more, unless nothing is solved until it is put back.
+  std::pair<std::optional<Trial>, PlanFrom> put_aside() {
+    return {std::exchange(best_, std::nullopt), report_->plan_from};
+  }
+  void put_back(std::pair<std::optional<Trial>, PlanFrom> aside) {
+    if (!aside.first || solved()) return;
+    best_ = std::move(aside.first);
+    report_->plan_from = aside.second;
+  }
+
+  /// Whether steps that catch a push have not been tried yet: once is enough.
+  bool begin_recovery() { return !std::exchange(recovery_tried_, true); }
+
+  /// From now on a plan that is not even acceptable is none.
+  void take_sound_only(bool only) { sound_only_ = only; }
+
+  std::optional<Trial>& best() { return best_; }
+
+  /// Whether nothing more may be begun.
+  bool out_of_time() const { return now_->deadline->passed() || (best_ && best_->ending == Ending::interrupted); }
+
+  /// Whether there is no time for another one that takes as long as the longest.
+  bool too_late() const {
+    return out_of_time() || (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_);
+  }
+
+  bool solved() const { return best_ && best_->ok(); }
+
+  /// Whether a controller may follow the best one for the next two steps.
+  bool usable() const { return best_ && (best_->ok() || can_be_followed(*best_)); }
+
+  /// Ratio of the velocity command that the trials from now on follow.
+  void followed(double ratio) { ratio_ = ratio; }
+  double best_ratio() const { return best_ratio_; }
+
+ private:
+  std::optional<Trial> attempt(const Now& now, const Rest& rest, bool apart, const Again* again);
+
+  /// A line of the log: why it was refused, or that it was not.
+  void tell(const std::optional<Trial>& trial, PlanFrom from) const;
+
+  /// Iterations that the work which is left allows a sequence about as long as this plan's.
+  int iterations_left(const Plan& plan) const;
+
+  const Now* now_;
+  Report* report_;
+  std::optional<Trial> best_;
+  int work_ = 0;  ///< iterations times phases
+  bool sound_only_ = false, recovery_tried_ = false;
+  bool held_joints_ = false;  ///< rows for the limits of joints have been tried
+  double longest_s_ = 0.0, ratio_ = 1.0, best_ratio_ = 1.0;
+};
+
+/// What is reported of the best of them; its plan goes out.
+void conclude(Trials& trials, Report& report, PlanResult& out);
+
+}  // namespace mcplan::ddp

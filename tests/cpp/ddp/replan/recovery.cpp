@@ -1,0 +1,143 @@
+#include "ddp/replan/recovery.hpp"
+
+#include <doctest/doctest.h>
+
+#include "ddp/replan/under_feet.hpp"
+#include "mcplan/ddp/plan.hpp"
+#include "mcplan/ddp/replan.hpp"
+#include "mcplan/mcplan.hpp"
+#include "mcplan/plan/checker.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+using namespace mcplan;
+using namespace mcplan::ddp;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+const Plan& walk() {
+  static const Plan plan = ddp::plan(scenes::flat(), scenes::humanoid44()).plan;
+  return plan;
+}
+
+/// A swing of a foot in the middle of the walk.
+struct Swinging {
+  int foot = 0, other = 1;
+  double lifts_s = 0.0, lands_s = 0.0;
+  double at(double ratio) const { return lifts_s + ratio * (lands_s - lifts_s); }
+};
+Swinging swinging() {
+  const std::vector<double> times = walk().knot_times();
+  for (std::size_t k = walk().phases.size() / 2; k < walk().phases.size(); ++k)
+    for (const int foot : {0, 1})
+      if (walk().phases[k].contacts[foot].surface < 0) return {foot, 1 - foot, times[k], times[k + 1]};
+  FAIL("there is a swing");
+  return {};
+}
+
+Measured pushed_at(double t, const Vector3d& velocity) {
+  Measured out;
+  out.state = rest_of(walk(), t).plan.knots.front();
+  out.state.com_velocity_W += velocity;
+  return out;
+}
+
+/// To the side on which an end-effector is.
+double side_of(int foot) { return walk().robot.end_effectors[foot].nominal_B.y() < 0.0 ? -1.0 : 1.0; }
+
+/// What is tried at a time, with the CoM pushed to a side.
+std::vector<Recovery> tried(double t, double to_left_m_s, const ReplanOptions& options) {
+  const Deadline never;
+  Now now{&walk().scene, &walk().robot, &options, &never, {}, {}, similarity_of(walk().robot, walk().scene.gravity)};
+  Rest rest = rest_of(walk(), t);
+  rest.plan.knots.front().com_velocity_W.y() += to_left_m_s;
+  return recoveries(rest, now);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "steps that catch a push: one contact changes at a time, each foot on its own side, and both stand at the end") {
+  const Swinging swing = swinging();
+  for (const double ratio : {0.3, 0.6}) {
+    for (const double push : {-0.5, 0.5}) {
+      CAPTURE(ratio);
+      CAPTURE(push);
+      const std::vector<Recovery> found = tried(swing.at(ratio), push, {});
+      REQUIRE(found.size() == 1);
+      const Rest& rest = found.front().rest;
+      CHECK(rest.free_end);
+      CHECK(rest.size() < 12);
+      CHECK(rest.surface(0, swing.foot) == kFree);
+      int landed = 0;
+      for (int k = 1; k <= rest.size(); ++k) {
+        int changes = 0;
+        for (const int e : {0, 1}) {
+          changes += rest.surface(k, e) != rest.surface(k - 1, e);
+          if (rest.surface(k, e) == kFree || rest.surface(k - 1, e) != kFree) continue;
+          ++landed;
+          const Knot& knot = rest.plan.knots[k];
+          const Vector3d apart = knot.end_effectors_W[e] - knot.end_effectors_W[1 - e];
+          CHECK(side_of(e) * apart.y() > 0.0);
+        }
+        CHECK(changes <= 1);
+      }
+      CHECK(landed == 3);
+      for (const int e : {0, 1}) CHECK(rest.surface(rest.size(), e) != kFree);
+    }
+  }
+  // From both feet either of them steps first; in the air nothing can be done.
+  CHECK(tried(0.0, 0.5, {}).size() == 2);
+}
+
+TEST_CASE("a push that the walk cannot catch is caught, and the robot stands where it then is") {
+  const Swinging swing = swinging();
+  int caught = 0;
+  for (const double ratio : {0.2, 0.5, 0.8}) {
+    for (const double push : {0.4, 0.5}) {
+      CAPTURE(ratio);
+      CAPTURE(push);
+      const double t = swing.at(ratio);
+      const Measured measured = pushed_at(t, {0.0, side_of(swing.foot) * push, 0.0});
+      const PlanResult result = ddp::replan(walk(), t, measured);
+      INFO(result.report.message);
+      CHECK(result.report.status == Status::solved);
+      CHECK(check(result.plan, result.plan.scene, result.plan.robot).ok());
+      CHECK((result.plan.at(0.0).com_velocity_W - measured.state.com_velocity_W).norm() < 1e-9);
+      if (result.report.plan_from != PlanFrom::recovery) continue;
+      ++caught;
+      const Knot& end = result.plan.knots.back();
+      CHECK(end.com_velocity_W.norm() < 0.01);
+      CHECK(result.plan.robot.end_effectors[0].reach_max_B == walk().robot.end_effectors[0].reach_max_B);  // as given
+      CHECK((end.com_W - result.plan.scene.goal.position_W).head<2>().norm() < 1e-9);
+      for (const int e : {0, 1}) CHECK(result.plan.final_contacts[e] >= 0);
+    }
+  }
+  CHECK(caught > 0);
+}
+
+TEST_CASE("pushed outward over the foot that stands, the other one may step across it, soles one behind the other") {
+  const Swinging swing = swinging();
+  const double outward = side_of(swing.other), t = swing.at(0.25);
+  ReplanOptions options;
+  CHECK(tried(t, outward * 0.6, options).size() == 1);
+  options.crossing = true;
+  CHECK(tried(t, -outward * 0.6, options).size() == 1);  // the other side needs no such step
+  const std::vector<Recovery> found = tried(t, outward * 0.6, options);
+  REQUIRE(found.size() == 3);
+  for (const Recovery& recovery : {found[1], found[2]}) {
+    REQUIRE(recovery.rest.across);
+    const Rest::Across& across = *recovery.rest.across;
+    const Knot& landing = recovery.rest.plan.knots[across.knot];
+    const Vector3d apart = landing.end_effectors_W[swing.foot] - landing.end_effectors_W[swing.other];
+    CHECK(outward * apart.y() > 0.0);
+    const auto half_length = [&](int e) { return recovery.robot.end_effectors[e].half_size.x(); };
+    CHECK(across.axis_W.dot(apart.head<2>()) > half_length(swing.foot) + half_length(swing.other));
+    if (across.via_knot < 0) continue;
+    const Vector3d via = across.via_W - landing.end_effectors_W[swing.other];
+    CHECK(outward * via.y() < 0.0);  // still on its own side
+    CHECK(across.axis_W.dot(via.head<2>()) > half_length(swing.foot) + half_length(swing.other));
+  }
+  CHECK((found[1].rest.across->axis_W + found[2].rest.across->axis_W).norm() < 1e-12);  // behind it and in front of it
+}
