@@ -164,6 +164,8 @@ class DdpReplanOptions(DdpOptions, total=False):
     """Number of phases that are planned ahead under a velocity command."""
     other_sequences: bool
     """Try sequences near to the plan's own where that does not do."""
+    recovery_first: bool
+    """Pushed, try steps that catch the robot before the plan's own sequence, not after it."""
     crossing: bool
     """Where the plan's own sequence does not catch a push outward over the foot that stands, the foot in the air may
     step across it, in front of it or behind it."""

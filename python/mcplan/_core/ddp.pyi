@@ -760,6 +760,7 @@ class ReplanOptions:
         phases_min: typing.SupportsInt | typing.SupportsIndex = 6,
         horizon: typing.SupportsInt | typing.SupportsIndex = 12,
         other_sequences: bool = True,
+        recovery_first: bool = False,
         crossing: bool = False,
         max_work: typing.SupportsInt | typing.SupportsIndex = 1000,
     ) -> None: ...
@@ -811,6 +812,13 @@ class ReplanOptions:
         """
     @phases_min.setter
     def phases_min(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def recovery_first(self) -> bool:
+        """
+        Pushed, try steps that catch the robot before the plan's own sequence, not after it.
+        """
+    @recovery_first.setter
+    def recovery_first(self, arg0: bool) -> None: ...
     @property
     def start_slack_s(self) -> float:
         """

@@ -86,7 +86,7 @@ class Planner:
         command: Velocity to walk at, ahead, to the left [m/s] and turning [rad/s]; None: to the scene's goal.
         period_s: How often states are submitted: a plan that was cut short is worth following if it is good for twice
             that.
-        **named: Options of mcplan.replan by name, among them ``time_limit`` [s].
+        **named: Options of mcplan.replan by name, among them ``time_limit`` [s]. ``recovery_first`` is on here.
 
     Attributes:
         plan, begins_s: The plan under way, and when it began.
@@ -205,7 +205,8 @@ class Planner:
         try:
             t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
             for i, robot in enumerate(self.robots):
-                told = {"crossing": i > 0, **named}  # those after the first are for emergencies
+                # While it is pushed, every new plan takes the push for over. Robots after the first are for emergencies.
+                told = {"recovery_first": True, "crossing": i > 0, **named}
                 result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, robot, told)
                 usable = follows(result.report, self.period_s)
                 if found is None or (usable and not follows(found.report, self.period_s)):

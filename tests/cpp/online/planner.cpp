@@ -52,7 +52,7 @@ TEST_CASE("what is submitted comes back as the plan that replan makes, from the 
   REQUIRE(update);
   CHECK(!planner.poll());  // handed out once
   CHECK(!planner.busy());
-  const PlanResult expected = ddp::replan(walk(), 1.0, measured.measured);
+  const PlanResult expected = ddp::replan(walk(), 1.0, measured.measured, beside_a_controller());
   REQUIRE(update->result);
   CHECK(update->ticket == ticket);
   CHECK(update->usable);
@@ -63,7 +63,7 @@ TEST_CASE("what is submitted comes back as the plan that replan makes, from the 
   REQUIRE(update->result->plan.knots.size() == expected.plan.knots.size());
   for (std::size_t k = 0; k < expected.plan.knots.size(); ++k)
     CHECK(update->result->plan.knots[k].com_W == expected.plan.knots[k].com_W);
-  CHECK(check(update->result->plan, walk().scene, walk().robot).ok());
+  CHECK(check(update->result->plan, update->result->plan.scene, walk().robot).ok());
 }
 
 TEST_CASE("the next plan is made from the one taken over, by the planner's thread") {

@@ -45,12 +45,13 @@ struct ReplanOptions {
   std::optional<VelocityCommand> command;  ///< walk on so instead of to the goal
   int horizon = 12;                        ///< number of phases that are planned ahead under a command
   bool other_sequences = true;             ///< where the plan's own sequence does not do, try others near to it
+  bool recovery_first = false;             ///< pushed, steps that catch the robot before its own sequence
   bool crossing = false;                   ///< and a step of the foot in the air across the one that stands
 
   /// Iterations times phases, over all sequences, after which no other one is tried: a bound of the time of a call
   /// that, unlike time_limit_s, gives the same plan on any machine. The plan's own sequence gets its iterations anyway,
-  /// as does what brings a plan within a limit that it misses by little, and unless this is 0, a stop, a hand that
-  /// catches a push, and up to three other ways to the goal.
+  /// as does what brings a plan within a limit that it misses by little, and unless this is 0, a stop, steps or a hand
+  /// that catch a push, and up to three other ways to the goal.
   int max_work = 1000;
 
   /// Throws InvalidOptions naming all that is out of its range.

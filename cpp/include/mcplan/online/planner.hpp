@@ -30,10 +30,18 @@ struct Update {
   std::uint64_t ticket = 0;   ///< number of the submitted state, counted from 1
 };
 
+/// Those of a replan beside a controller: steps that catch a push come first, since while the robot is pushed every new
+/// plan takes the push for over.
+inline ddp::ReplanOptions beside_a_controller() {
+  ddp::ReplanOptions options;
+  options.recovery_first = true;
+  return options;
+}
+
 /// How to replan beside a controller.
 struct PlannerOptions {
-  ddp::ReplanOptions replan;  ///< its command holds until it is changed
-  double period_s = 0.1;      ///< how often states are submitted
+  ddp::ReplanOptions replan = beside_a_controller();  ///< its command holds until it is changed
+  double period_s = 0.1;                              ///< how often states are submitted
 
   /// Throws InvalidOptions naming all that is out of its range.
   void validate() const;

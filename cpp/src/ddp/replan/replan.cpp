@@ -66,10 +66,12 @@ bool stays_upright(const Plan& plan, const Robot& robot, const Similarity& simil
   return true;
 }
 
+bool is_pushed(const Now& now) { return now.pushed_W.norm() > kPush_m_s * now.similarity.velocity(); }
+
 /// Steps that catch a push, where the robot is pushed and what has been found does not do, or drops it though the plan
 /// under way did not.
 void recover_if_pushed(const Rest& rest, const Now& now, Trials& trials) {
-  if (!(now.pushed_W.norm() > kPush_m_s * now.similarity.velocity())) return;
+  if (!is_pushed(now)) return;
   const bool dropped = trials.solved() && !stays_upright(trials.best()->plan, *now.robot, now.similarity) &&
                        stays_upright(rest.plan, *now.robot, now.similarity);
   if (trials.solved() && !dropped) return;
@@ -88,8 +90,10 @@ void as_planned_or_with_a_hand(const Rest& rest, Now& now, Trials& trials) {
                        now.similarity);
   now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
   const bool hard = now.pushed_W.norm() > kHardPush_m_s * now.similarity.velocity() && !hands.empty();
-  if (!hard) trials.make(now, rest, PlanFrom::same_sequence);
-  if (now.options->other_sequences && now.options->max_work > 0 && hands.empty()) recover_if_pushed(rest, now, trials);
+  const bool may_recover = now.options->other_sequences && now.options->max_work > 0 && hands.empty();
+  if (may_recover && now.options->recovery_first && is_pushed(now)) recover(rest, now, trials);
+  if (!hard && !trials.solved()) trials.make(now, rest, PlanFrom::same_sequence);
+  if (may_recover) recover_if_pushed(rest, now, trials);
   for (std::size_t i = 0; i < hands.size() && !trials.solved() && !trials.out_of_time(); ++i) {
     Now there = now;
     there.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, hands[i]);

@@ -39,6 +39,8 @@ struct Fields<ddp::ReplanOptions> {
           .at_most(400),
       field("other_sequences", &Options::other_sequences, "",
             "Try sequences near to the plan's own where that does not do."),
+      field("recovery_first", &Options::recovery_first, "",
+            "Pushed, try steps that catch the robot before the plan's own sequence, not after it."),
       field(
           "crossing", &Options::crossing, "",
           "Where the plan's own sequence does not catch a push outward over the foot that stands, the foot in the air "
