@@ -42,7 +42,7 @@ def test_what_is_submitted_comes_back_as_the_plan_that_replan_makes(plan):
         ticket = planner.submit(measured)
         update = planner.wait()
         assert planner.poll() is None and not planner.busy  # handed out once
-    expected = mp.replan(plan, 1.0, measured.knot, contacts=list(measured.contacts))
+    expected = mp.replan(plan, 1.0, measured.knot, contacts=list(measured.contacts), recovery_first=True)
     assert update.ticket == ticket == 1 and update.usable and update.begins_s == 1.0
     assert update.status == expected.report.status.name and update.plan.knots == expected.plan.knots
     assert update.kept_until_s == 1.0 + expected.report.kept_until_s and update.took_s > 0.0
