@@ -352,6 +352,41 @@ def test_out_of_time_there_is_a_plan_whose_next_two_steps_can_be_followed(flat):
     assert mp.check(result.plan, until_s=two_steps).ok()
 
 
+def test_steps_that_catch_a_push_come_first_where_that_is_asked_for(flat):
+    t = time_of_phase(flat, 1)
+    knot, contacts = state_at(flat, t)
+    knot.com_velocity_W = knot.com_velocity_W + [0.15, 0.0, 0.0]
+    usually = mp.replan(flat, t, knot, contacts=contacts)
+    first = mp.replan(flat, t, knot, contacts=contacts, recovery_first=True)
+    assert usually.report.plan_from == mp.model.PlanFrom.same_sequence
+    assert first.report.plan_from == mp.model.PlanFrom.recovery
+    end = first.plan.knots[-1]
+    assert mp.check(first.plan).ok and np.linalg.norm(end.com_velocity_W) < 0.01
+    assert end.com_W[0] < usually.plan.knots[-1].com_W[0] - 0.3  # it stands on the way, not at the goal
+
+
+def test_what_only_a_step_across_the_standing_foot_catches_is_caught_by_one():
+    """0.45 m/s outward over the foot that stands, in the middle of a swing of TALOS."""
+    from mcplan.online.reach import widened
+
+    plan = mp.plan("flat", "talos").plan
+    t = time_of_phase(plan, 1)
+    knot, contacts = state_at(plan, t)
+    swings, stands = (0, 1) if contacts[0] < 0 else (1, 0)
+    outward = math.copysign(1.0, plan.robot.end_effectors[stands].nominal_B[1])
+    knot.com_velocity_W = knot.com_velocity_W + [0.0, 0.45 * outward, 0.0]
+    robot = widened(plan.robot)
+    without = mp.replan(plan, t, knot, contacts=contacts, robot=robot)
+    crossed = mp.replan(plan, t, knot, contacts=contacts, robot=robot, crossing=True)
+    assert without.report.status == mp.Status.infeasible
+    assert crossed.report.status == mp.Status.solved and mp.check(crossed.plan).ok
+    lands = next(k for k, row in enumerate(crossed.plan.contact_sequence()) if row[swings] >= 0)
+    places = crossed.plan.knots[lands].end_effectors_W
+    apart = np.array(places[swings]) - np.array(places[stands])
+    lengths = [plan.robot.end_effectors[e].half_size[0] for e in (swings, stands)]
+    assert outward * apart[1] > 0.0 and abs(apart[0]) > sum(lengths)  # across, one sole behind the other
+
+
 def test_without_work_for_them_no_other_sequences_are_tried(flat):
     t = time_of_phase(flat, 0)
     knot, contacts = state_at(flat, t)

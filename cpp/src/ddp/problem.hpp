@@ -112,7 +112,7 @@ class Problem {
   Eigen::Vector3d inertia;           ///< in units of mass length^2
   double first_duration = 0.0;       ///< what is left of the first phase when replanning, else 0
   bool first_duration_kept = false;  ///< likewise: it ends when it was to end
-  /// A place where a contact begins, when replanning: the cost term "kept".
+  /// A place where a contact begins, or that a free foot passes, when replanning: the cost term "kept".
   struct Foothold {
     int knot = 0, l = 0;
     Eigen::Vector3d place = Eigen::Vector3d::Zero();

@@ -91,7 +91,7 @@ TEST_CASE(
   CHECK(tried(0.0, 0.5, {}).size() == 2);
 }
 
-TEST_CASE("a push that the walk cannot catch is caught, and the robot stands where it then is") {
+TEST_CASE("a hard push is answered by a plan that the checker accepts, steps to a stand among them") {
   const Swinging swing = swinging();
   int caught = 0;
   for (const double ratio : {0.2, 0.5, 0.8}) {
