@@ -10,9 +10,9 @@ from typing import Any
 from mcplan import _core
 from mcplan._core import Knot, Plan, PlanResult, Robot, Scene
 from mcplan.arguments import named_by_file, require, require_number, require_or_path
-from mcplan.errors import InvalidArgument, InvalidPlan, did_you_mean, shown
+from mcplan.errors import InvalidArgument, InvalidOptions, InvalidPlan, did_you_mean, shown
 from mcplan.files.meeting import warn_of_names
-from mcplan.options import fill, option_names, start
+from mcplan.options import ALIASES, fill, option_names, start
 
 #: Surfaces by end-effector: indices in the robot's order, -1 free, or names.
 Contacts = Sequence[int] | Mapping[str, str | None]
@@ -54,7 +54,13 @@ def replan(
     require("scene", scene, Scene, optional=True)
     require("robot", robot, Robot, optional=True)
     t = require_number("t", t)
-    own = set(option_names(_core.ddp.ReplanOptions))
+    own = option_names(_core.ddp.ReplanOptions)
+    legal = [*own, *option_names(_core.ddp.Options)]
+    for name in named:
+        if name not in legal and name not in ALIASES:
+            raise InvalidOptions(
+                str(name), f"no such option. {did_you_mean(str(name), legal)}Options: {', '.join(legal)}"
+            )
     how = fill(_core.ddp.ReplanOptions(), {name: value for name, value in named.items() if name in own})
     search = make_options({name: value for name, value in named.items() if name not in own}, options)
     return _core.ddp.replan(

@@ -307,6 +307,7 @@ def test_the_result_does_not_depend_on_the_number_of_threads_or_on_what_was_repl
         ({"command": (1.0, 2.0)}, mp.errors.InvalidArgument, "command: must be a ddp.VelocityCommand or three numbers"),
         ({"command": (math.nan, 0.0, 0.0)}, mp.errors.InvalidOptions, "command.velocity_B"),
         ({"committed_s": -1.0}, mp.errors.InvalidOptions, "committed_s: must"),
+        ({"crossings": True}, mp.errors.InvalidOptions, "crossings: no such option. .*crossing.*max_work.*phases"),
         ({"start_slack_s": 6.0}, mp.errors.InvalidOptions, "start_slack_s: must be at most 5, got 6"),
         ({"max_work": -1}, mp.errors.InvalidOptions, "max_work: must"),
         ({"phases_min": 0}, mp.errors.InvalidOptions, "phases_min: must"),
