@@ -388,6 +388,33 @@ def test_what_only_a_step_across_the_standing_foot_catches_is_caught_by_one():
     assert outward * apart[1] > 0.0 and abs(apart[0]) > sum(lengths)  # across, one sole behind the other
 
 
+@pytest.mark.parametrize("ratio", [0.25, 0.75])
+def test_steps_that_do_not_catch_a_push_hide_nothing_that_does(ratio):
+    """0.35 m/s outward, early and late in a swing of TALOS: none of three recoveries is solved, other ways are."""
+    from mcplan.online.reach import widened
+
+    plan = mp.plan("flat", "talos").plan
+    t = time_of_phase(plan, 1, ratio)
+    knot, contacts = state_at(plan, t)
+    outward = math.copysign(1.0, plan.robot.end_effectors[0 if contacts[0] >= 0 else 1].nominal_B[1])
+    knot.com_velocity_W = knot.com_velocity_W + [0.0, 0.35 * outward, 0.0]
+    lines: list[str] = []
+    result = mp.replan(
+        plan,
+        t,
+        knot,
+        contacts=contacts,
+        robot=widened(plan.robot),
+        crossing=True,
+        recovery_first=True,
+        logger=lambda _, line: lines.append(line),
+    )
+    recoveries = [line for line in lines if line.startswith("replan, steps that catch a push")]
+    assert recoveries and not any(line.endswith("accepted") for line in recoveries)
+    assert result.report.plan_from != mp.model.PlanFrom.recovery
+    assert result.report.status == mp.Status.solved and mp.check(result.plan).ok
+
+
 def test_without_work_for_them_no_other_sequences_are_tried(flat):
     t = time_of_phase(flat, 0)
     knot, contacts = state_at(flat, t)

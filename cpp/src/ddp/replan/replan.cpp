@@ -29,17 +29,21 @@
 namespace mcplan::ddp {
 namespace {
 
-/// By steps that catch a push, to a stand wherever that is.
+/// By steps that catch a push, to a stand wherever that is. Where they are not solved they wait until the end: what
+/// they violate says nothing about other ways.
 void recover(const Rest& rest, const Now& now, Trials& trials) {
   if (!trials.begin_recovery()) return;
+  Trials::Aside aside = trials.put_aside();
   for (const Recovery& recovery : recoveries(rest, now)) {
-    if (trials.solved() || trials.out_of_time()) return;
+    if (trials.solved() || trials.out_of_time()) break;
     Now there = now;
     there.robot = &recovery.robot;
     if (!recovery.rest.across) there.given_robot = now.robot;
     there.surfaces = surfaces_of(*now.scene, recovery.robot, now.measured, recovery.rest);
     trials.make(there, recovery.rest, PlanFrom::recovery, true);
   }
+  if (!trials.solved()) trials.spare_until_the_end();
+  trials.put_back(std::move(aside));
 }
 
 /// Pushed by more than this [m/s] the robot reaches for a hold before it tries to go on as planned. Measured on talos
@@ -74,11 +78,7 @@ void recover_if_pushed(const Rest& rest, const Now& now, Trials& trials) {
   if (!is_pushed(now)) return;
   const bool dropped = trials.solved() && !stays_upright(trials.best()->plan, *now.robot, now.similarity) &&
                        stays_upright(rest.plan, *now.robot, now.similarity);
-  if (trials.solved() && !dropped) return;
-  std::pair<std::optional<Trial>, PlanFrom> aside;
-  if (dropped) aside = trials.put_aside();
-  recover(rest, now, trials);
-  trials.put_back(std::move(aside));
+  if (!trials.solved() || dropped) recover(rest, now, trials);
 }
 
 /// By the plan's own sequence, or with a hand where the robot is pushed towards what it can hold on to; which of them
@@ -237,6 +237,7 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
       if (!trials.usable()) recover(begun, now, trials);
       stop(begun, now, trials);
     }
+    trials.take_spare();
   }
   if (!ended && deadline.passed() && !(trials.best() && can_be_followed(*trials.best())))
     trials.take(kept ? std::move(kept) : as_planned(planned, now), PlanFrom::previous_plan);

@@ -23,13 +23,23 @@ class Trials {
   void take(std::optional<Trial> trial, PlanFrom from);
 
   /// The best one so far does not count any more, unless nothing is solved until it is put back.
-  std::pair<std::optional<Trial>, PlanFrom> put_aside() {
-    return {std::exchange(best_, std::nullopt), report_->plan_from};
+  struct Aside {
+    std::optional<Trial> trial;
+    PlanFrom from = PlanFrom::same_sequence;
+    double ratio = 1.0;
+  };
+  Aside put_aside() { return {std::exchange(best_, std::nullopt), report_->plan_from, best_ratio_}; }
+  void put_back(Aside aside) {
+    if (!aside.trial || solved()) return;
+    best_ = std::move(aside.trial);
+    report_->plan_from = aside.from;
+    best_ratio_ = aside.ratio;
   }
-  void put_back(std::pair<std::optional<Trial>, PlanFrom> aside) {
-    if (!aside.first || solved()) return;
-    best_ = std::move(aside.first);
-    report_->plan_from = aside.second;
+
+  /// The best one so far counts again when all others have been tried, so that it is in the way of none of them.
+  void spare_until_the_end() { spare_ = put_aside(); }
+  void take_spare() {
+    if (spare_.trial && (!best_ || better(*spare_.trial, *best_))) put_back(std::move(spare_));
   }
 
   /// Whether steps that catch a push have not been tried yet: once is enough.
@@ -41,7 +51,7 @@ class Trials {
   std::optional<Trial>& best() { return best_; }
 
   /// Whether nothing more may be begun.
-  bool out_of_time() const { return now_->deadline->passed() || (best_ && best_->ending == Ending::interrupted); }
+  bool out_of_time() const { return now_->deadline->passed() || interrupted(best_) || interrupted(spare_.trial); }
 
   /// Whether there is no time for another one that takes as long as the longest.
   bool too_late() const {
@@ -58,6 +68,7 @@ class Trials {
   double best_ratio() const { return best_ratio_; }
 
  private:
+  static bool interrupted(const std::optional<Trial>& trial) { return trial && trial->ending == Ending::interrupted; }
   std::optional<Trial> attempt(const Now& now, const Rest& rest, bool apart, const Again* again);
 
   /// A line of the log: why it was refused, or that it was not.
@@ -69,6 +80,7 @@ class Trials {
   const Now* now_;
   Report* report_;
   std::optional<Trial> best_;
+  Aside spare_;
   int work_ = 0;  ///< iterations times phases
   bool sound_only_ = false, recovery_tried_ = false;
   bool held_joints_ = false;  ///< rows for the limits of joints have been tried
