@@ -81,6 +81,7 @@ if TYPE_CHECKING:
     from mcplan.model import Swing as Swing
     from mcplan.model import Violation as Violation
     from mcplan.online.result import RunResult
+    from mcplan.online.steering import Steer
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
@@ -263,6 +264,7 @@ def run(
     *,
     watch: Watch | None = None,
     true_scene: Scene | str | Path | None = None,
+    steer: Steer | None = None,
     **options: Any,
 ) -> RunResult:
     """Simulate a robot that is planned for while it walks: pushed, it takes other steps.
@@ -279,6 +281,8 @@ def run(
             the plan that is followed, as ``mcplan.view.LiveView`` is.
         true_scene: The ground that is simulated where it is not as planned: surfaces of the scene by name, elsewhere, with
             other friction, or left out. ``told_at_s`` is the time from which on the planner knows it; never by default.
+        steer: Called at every control step with the simulated time [s]; returns an ``mcplan.online.Asked``: a velocity to
+            walk at, a push, or that the run is over. What was asked for is in the result's options afterwards.
         **options: Fields of ``mcplan.online.OnlineOptions`` and of ``mcplan.tracking.Options``, among them ``push``, one
             or several as ``mcplan.track`` takes them; ``command``, a velocity (ahead, left [m/s], turning [rad/s]);
             ``goal``, a place and heading instead of the scene's goal (x, y [m], heading [rad], from a time on [s]);
@@ -301,6 +305,7 @@ def run(
     from mcplan.extras import require
 
     require("mcplan.run", "sim", "mujoco", "pinocchio", "proxsuite")
+    from mcplan.online.steering import Beside
     from mcplan.running import run_any
 
-    return run_any(scene, robot, options, watch=watch, true_scene=true_scene)
+    return run_any(scene, robot, options, Beside(None, watch, steer), true_scene)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,9 +12,10 @@ from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean, shown
 from mcplan.kinematics.urdf_model import require_urdf
 from mcplan.online.options import OnlineOptions, option_names
+from mcplan.online.steering import ALONE, Beside
 from mcplan.solve import plan as solve
 from mcplan.tracking.choice import make_options
-from mcplan.tracking.options import Options, Push, Watch
+from mcplan.tracking.options import Options, Push
 
 if TYPE_CHECKING:
     from mcplan.online.result import RunResult
@@ -29,8 +30,7 @@ def run_any(
     scene: Scene | Plan | str | Path,
     robot: Robot | str | Path | None,
     values: Mapping[str, Any],
-    progress: Callable[[float, float], None] | None = None,
-    watch: Watch | None = None,
+    beside: Beside = ALONE,
     true_scene: Scene | str | Path | None = None,
 ) -> RunResult:
     """Walk with replanning; see mcplan.run.
@@ -39,8 +39,7 @@ def run_any(
         scene: Where to walk, or the plan to begin with.
         robot: None: that of the plan.
         values: Options by name.
-        progress: Called now and then with the time simulated and the time to simulate [s].
-        watch: Called at every control step; see mcplan.run.
+        beside: What is called while the run goes on.
         true_scene: The ground that is simulated; None: as planned.
     """
     if not isinstance(robot, Robot):
@@ -56,7 +55,7 @@ def run_any(
 
         true_scene = load_scene(true_scene)
     own = robot if isinstance(scene, Plan) else None
-    return run(first_plan(scene, robot, online), own, options, online, progress, watch, true_scene)
+    return run(first_plan(scene, robot, online), own, options, online, *beside[:2], true_scene, beside.steer)
 
 
 def chosen_options(values: Mapping[str, Any]) -> tuple[Options, OnlineOptions]:

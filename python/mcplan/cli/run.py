@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json as json_module
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
@@ -12,16 +15,20 @@ from mcplan.cli.given_options import named_as_typed
 from mcplan.cli.live import LiveOption, watching
 
 if TYPE_CHECKING:
+    from mcplan._core import Plan
     from mcplan.cli.track_outputs import RunOutputs
+    from mcplan.cli.track_text import Progress
     from mcplan.online.result import RunResult
+    from mcplan.online.steering import Steer
 
 
 class Telling(NamedTuple):
-    """What of a run is told while and after it."""
+    """What of a run is told while and after it, and whether keys steer it."""
 
     json: bool
     quiet: bool
     live: bool
+    steer: bool
 
 
 SceneArgument = Annotated[
@@ -78,6 +85,9 @@ ToldAtOption = Annotated[
         "--told-at", metavar="S", help="Time from which on the planner knows the true scene [s]; default: never."
     ),
 ]
+SteerOption = Annotated[
+    bool, typer.Option("--steer", help="Walk as the keys of the terminal say, which it names; at real time at most.")
+]
 ReplanningOption = Annotated[
     bool, typer.Option("--replanning/--no-replanning", help="Replan while walking; off: follow the first plan.")
 ]
@@ -123,6 +133,7 @@ def run(
     sensor_noise: track.NoiseOption = 0.0,
     seed: track.SeedOption = 0,
     live: LiveOption = False,
+    steer: SteerOption = False,
     video: track.VideoOption = None,
     html: track.HtmlOption = None,
     strip: track.StripOption = None,
@@ -142,6 +153,8 @@ def run(
 
     Example: mcplan run flat --robot talos --command 0.15,0,0.1 --duration 8 --json
 
+    Example: mcplan run flat --robot talos --live --steer
+
     Example: mcplan run stairs_up --robot talos --engine rhp --latency 0.1
     """
     from mcplan.cli.pushes import parse_pushes
@@ -155,7 +168,7 @@ def run(
     values["command"] = [_numbers(text) for text in command or []]
     values["goal"] = [_numbers(text, "--goal", (2, 3, 4), "x,y[,yaw[,at]], such as 1.5,0.3") for text in goal or []]
     outputs = RunOutputs(video, html, strip, plots, save, verb="run")
-    return _run((scene, robot, true_scene), values, outputs, Telling(json, quiet, live))
+    return _run((scene, robot, true_scene), values, outputs, Telling(json, quiet, live, steer))
 
 
 def _run(
@@ -165,11 +178,15 @@ def _run(
     from dataclasses import replace
 
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
+    from mcplan.cli.keyboard import require_terminal
     from mcplan.cli.terminal import printable
     from mcplan.cli.track_text import Progress
     from mcplan.extras import require
+    from mcplan.online.steering import Beside
     from mcplan.running import chosen_options, first_plan, run_any
 
+    if telling.steer:
+        require_terminal(sys.stdin)
     require("mcplan run", "sim", "mujoco", "pinocchio", "proxsuite")
     outputs.require()
     _, online = chosen_options(values)
@@ -177,10 +194,9 @@ def _run(
     progress.working("planning")
     scene, robot, true_scene = walk
     plan = first_plan(scene, robot, online)
-    with watching(telling.live, plan, None) as watch:
-        result, interrupted = as_far_as_it_came(
-            lambda: run_any(plan, robot, values, progress.simulated, watch, true_scene)
-        )
+    with watching(telling.live, plan, None) as watch, _steering(telling, plan, progress) as (steer, simulated):
+        beside = Beside(simulated, watch, steer)
+        result, interrupted = as_far_as_it_came(lambda: run_any(plan, robot, values, beside, true_scene))
     progress.end()
     print(json_module.dumps(summary(result), allow_nan=False) if telling.json else result, flush=True)
     written = (replace(outputs, video=None, html=None, strip=None, plots=None) if interrupted else outputs).write(
@@ -189,6 +205,22 @@ def _run(
     if written and not telling.json:
         print(printable(f"Saved {', '.join(written)}"))
     return CODE if interrupted else 0 if result.followed else 1
+
+
+@contextmanager
+def _steering(
+    telling: Telling, plan: Plan, progress: Progress
+) -> Iterator[tuple[Steer | None, Callable[[float, float], None]]]:
+    """Who steers, and who is told how far the run is."""
+    if not telling.steer:
+        yield None, progress.simulated
+        return
+    from mcplan.cli.keyboard import KEYS, Keyboard
+
+    with Keyboard(plan.robot.com_height, plan.robot.mass) as keyboard:
+        progress.end()
+        print(KEYS, file=sys.stderr, flush=True)
+        yield keyboard, lambda now_s, _: progress.working(f"{now_s:.1f} s: {keyboard}")
 
 
 def summary(result: RunResult) -> dict[str, Any]:

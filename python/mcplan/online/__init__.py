@@ -18,8 +18,10 @@ from .horizon_planner import HorizonPlanner
 from .measures import OnlineMeasures
 from .options import OnlineOptions
 from .planner import MeasuredState, Planner, Update
+from .steering import Asked
 
 __all__ = [
+    "Asked",
     "ContactFilter",
     "HorizonPlanner",
     "MeasuredState",

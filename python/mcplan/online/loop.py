@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,7 @@ from mcplan._core import Plan, Scene
 from mcplan.errors import InvalidInput
 from mcplan.tracking.interruption import Interruption
 from mcplan.tracking.measures import measure, with_touches
-from mcplan.tracking.options import Options, Watch
+from mcplan.tracking.options import Options
 from mcplan.tracking.recorder import Acting, Recorder
 from mcplan.tracking.references import references
 from mcplan.tracking.robot_dynamics import RobotDynamics
@@ -23,6 +22,7 @@ from mcplan.tracking.sensors import Sensors
 from mcplan.tracking.separation import Separation
 
 from .contacts import ContactFilter
+from .ending import fallen, length_of
 from .followed import FollowedReferences
 from .goals import Aim
 from .known_ground import KnownGround
@@ -33,6 +33,7 @@ from .planner import Planner, Update
 from .reach import widened
 from .result import FollowedPlan, RunResult
 from .state import StateReader
+from .steering import ALONE, Beside, steered
 
 if TYPE_CHECKING:
     from mcplan.tracking.controller import Controller
@@ -40,12 +41,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Fallen: ratio of the CoM's height over the lowest foot to the nominal one, or tilt of the base [rad].
-FALLEN_RATIO, FALLEN_RAD = 0.6, 1.0
-#: Duration of a run under a command [s].
-COMMAND_S = 10.0
-#: A run to a goal ends at the latest after this ratio of the first plan's duration, and this time more [s].
-LONGEST_RATIO, LONGEST_S = 2.0, 5.0
 #: For so long at most a late end-effector comes down before there is another plan [s].
 SEARCH_S = 0.25
 #: Force over the weight from which on a contact says how slippery its surface is.
@@ -58,19 +53,6 @@ STAND = (0.0, 0.0, 0.0)
 HUMAN_M = 0.88
 #: A contact is one that the first plan had if it is within this distance of it [m].
 SAME_PLACE_M = 0.05
-
-
-def length_of(plan: Plan, options: Options, online: OnlineOptions) -> float:
-    """The longest that the run may take [s]."""
-    if not np.isnan(online.duration_s):
-        return online.duration_s
-    planned_s = float(plan.duration()) + options.hold_s
-    if online.goal and online.replanning:
-        begins_s = max(row[0] for row in (*online.goal, *online.command))
-        return begins_s + LONGEST_RATIO * planned_s + LONGEST_S
-    if online.command:
-        return COMMAND_S
-    return LONGEST_RATIO * planned_s + LONGEST_S if online.replanning else planned_s
 
 
 @dataclass
@@ -98,10 +80,10 @@ class Loop:
         self,
         plan: Plan,
         simulation: Simulation,
-        start: Array,
         options: Options,
         online: OnlineOptions,
         true_scene: Scene | None,
+        beside: Beside = ALONE,
     ) -> None:
         from mcplan.tracking.controller import Controller, Restraints
 
@@ -110,13 +92,17 @@ class Loop:
         self.robot, self.dt_s, self.length_s = (
             self.urdf_model.robot,
             options.control_step_s,
-            length_of(plan, options, online),
+            length_of(plan, options, online, beside.steer is not None),
         )
+        start = posture_at(self.urdf_model, plan, 0.0)
+        on_ground = start.copy()
+        on_ground[2] += options.ground_shift_m
+        simulation.reset(on_ground, np.zeros(self.urdf_model.model.nv))
         separation = Separation(simulation.model) if options.self_contacts else None
         restraints = Restraints(simulation.model.motors, separation)
         desired = references(plan, self.robot, self.dt_s, options.hold_s)
         self.controller: Controller = Controller(self.urdf_model, plan.scene, desired, start, options.gains, restraints)
-        self.start, self.actual = start, RobotDynamics(self.urdf_model)
+        self.actual = RobotDynamics(self.urdf_model)
         weight_N = self.actual.mass * plan.scene.gravity
         self.contact_N = CONTACT_RATIO * weight_N
         standing = desired.surfaces[0] >= 0
@@ -141,7 +127,7 @@ class Loop:
         self.followed = FollowedReferences(count, desired)
         self.recorder = Recorder(plan, self.urdf_model, simulation.model.joints, self.followed)
         self.failures, self.control_s = 0, 0.0
-        self.watch: Watch | None = None
+        self.beside, self.ends = beside, False
 
     def _planning(self, plan: Plan, online: OnlineOptions) -> tuple[Planner, Pace]:
         """Who replans, and when."""
@@ -161,25 +147,26 @@ class Loop:
         """The one under way."""
         return self.plans[-1]
 
-    def run(self, stop: Interruption, progress: Callable[[float, float], None] | None) -> RunResult:
+    def run(self, stop: Interruption) -> RunResult:
         """Go on until the end, a fall, or Ctrl-C."""
         fell_at, began, n = np.inf, time.perf_counter(), 0
         for n in range(self.followed.count):
             now_s = n * self.dt_s
             dynamics = self._step(n, now_s)
-            if self.simulation.broke or self._fallen(dynamics):
+            if self.simulation.broke or fallen(dynamics, self.robot):
                 fell_at = now_s
                 break
             if stop.asked or self._over(now_s):
                 break
-            if progress is not None and n % 50 == 0:
-                progress(
-                    now_s, min(self.length_s, self.plan.begins_s + self.plan.plan.duration() + self.options.hold_s)
-                )
+            if self.beside.progress is not None and n % 50 == 0:
+                planned_s = self.plan.begins_s + self.plan.plan.duration() + self.options.hold_s
+                self.beside.progress(now_s, min(self.length_s, planned_s))
         return self._result(n, fell_at, time.perf_counter() - began, stop.asked)
 
     def _step(self, n: int, now_s: float) -> RobotDynamics:
         """One control step."""
+        if self.beside.steer is not None:
+            self.options, self.online, self.ends = steered(self.beside.steer, now_s, self.options, self.online)
         simulation, options = self.simulation, self.options
         state = simulation.state()
         forces, touches = simulation.contact_forces_W(), simulation.touches()
@@ -200,8 +187,8 @@ class Loop:
         if options.sensor_noise > 0.0:  # what is recorded is what the robot does, not what the controller reads
             dynamics = self.actual
             dynamics.update(*state)
-        if self.watch is not None:
-            self.watch(now_s, state[0], self.plan.plan)
+        if self.beside.watch is not None:
+            self.beside.watch(now_s, state[0], self.plan.plan)
         push = sum((p.force_W(now_s) for p in options.pushes), np.zeros(3))
         steps = round(self.dt_s / options.simulation_step_s)
         given = simulation.advance(command.torques, np.concatenate([push, np.zeros(3)]), steps)
@@ -229,6 +216,7 @@ class Loop:
         t = now_s - under_way.begins_s
         self._set_goal(now_s)
         self.pace.new_goal = self.aim.open
+        self.pace.commanded = self.online.command_at(now_s) is not None
         reason = self.pace.due(now_s, touchdown, under_way.plan, t, com_W, velocity_W)
         if reason is None:
             return
@@ -349,17 +337,13 @@ class Loop:
 
     def _over(self, now_s: float) -> bool:
         """Whether the plan under way has ended and its end was held."""
+        if self.ends:
+            return True
         if self.online.command_at(now_s) or not np.isnan(self.online.duration_s):
             return False
         if self.aim.open or any(row[0] > now_s for row in (*self.online.goal, *self.online.command)):
             return False
         return bool(now_s - self.plan.begins_s > self.plan.plan.duration() + self.options.hold_s)
-
-    def _fallen(self, dynamics: RobotDynamics) -> bool:
-        feet = [i for i, end in enumerate(self.robot.end_effectors) if end.kind == "foot"]
-        lowest = min(dynamics.end_effector_position_W(i)[2] for i in feet)
-        low = dynamics.com_W[2] - lowest < FALLEN_RATIO * self.robot.com_height
-        return bool(low or dynamics.base_WB[2, 2] < np.cos(FALLEN_RAD))
 
     def _result(self, n: int, fell_at: float, wall_s: float, interrupted: bool) -> RunResult:
         recording = replace(self.recorder.finish(fell_at), true_scene=self.true_scene)

@@ -20,14 +20,15 @@ class Pace:
 
     Attributes:
         new_goal: No plan leads to the present goal yet.
+        commanded: The robot walks at a velocity.
         slipped: An end-effector slips, on a surface that is more slippery than was known.
     """
 
     def __init__(self, options: OnlineOptions) -> None:
         self._options = options
-        self._last_s = -options.period_s if options.command_at(0.0) else 0.0
+        self._last_s = -np.inf  # never
         self._touched = False
-        self.new_goal = self.slipped = False
+        self.new_goal = self.commanded = self.slipped = False
 
     def asked(self, now_s: float) -> None:
         """A replan was asked for."""
@@ -44,14 +45,17 @@ class Pace:
             plan: The plan under way. t: Time in it [s].
             com_W, com_velocity_W: (3,) measured.
         """
-        options, since_s = self._options, now_s - self._last_s
+        options = self._options
+        if np.isinf(self._last_s):  # under a command the first plan, which leads to a goal, is replaced at once
+            self._last_s = now_s - (options.period_s if self.commanded else 0.0)
+        since_s = now_s - self._last_s
         self._touched |= touchdown
         if since_s < options.pause_s - 1e-9:
             return None
         if self.slipped:
             return "slip"
         # Where nothing but standing is left, replans would put in steps on the spot again and again.
-        goes_on = options.command_at(now_s) is not None or steps_left(plan, t) or self.new_goal
+        goes_on = self.commanded or steps_left(plan, t) or self.new_goal
         if options.at_touchdowns and self._touched and goes_on:
             return "touchdown"
         if since_s > options.period_s - 1e-9 and goes_on:

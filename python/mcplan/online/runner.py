@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,17 +14,16 @@ from mcplan.extras import require
 from mcplan.tracking.disturbances import disturbed
 from mcplan.tracking.interruption import Interruption
 from mcplan.tracking.options import Options, Watch
-from mcplan.tracking.runner import posture_at, robot_for
+from mcplan.tracking.runner import robot_for
 
+from .ending import length_of
 from .horizon_bases import with_bases
 from .horizon_loop import HorizonLoop
 from .horizon_planner import require_steps
-from .loop import Loop, length_of
+from .loop import Loop
 from .options import OnlineOptions
 from .result import RunResult
-
-if TYPE_CHECKING:
-    pass
+from .steering import Beside, Steer
 
 Array = NDArray[np.float64]
 
@@ -38,6 +36,7 @@ def run(
     progress: Callable[[float, float], None] | None = None,
     watch: Watch | None = None,
     true_scene: Scene | None = None,
+    steer: Steer | None = None,
 ) -> RunResult:
     """Simulate a robot that follows a plan and is planned for anew while it walks.
 
@@ -51,6 +50,8 @@ def run(
             the plan that is followed, as ``mcplan.view.LiveView`` is.
         true_scene: The ground that is simulated: surfaces of the plan's scene by name, elsewhere, with other friction, or
             left out; None: as planned. The planner takes the ground for that of the plan until ``online.told_at_s``.
+        steer: Called at every control step with the simulated time [s]; returns an ``Asked``: a velocity to walk at, a push,
+            or that the run is over. What was asked for is in the result's options, with which a run repeats this one.
 
     Returns:
         What the robot did, and how planning went. Ctrl-C ends the run with Interrupted, which carries the result.
@@ -64,7 +65,7 @@ def run(
     """
     require("mcplan.online", "sim", "mujoco", "pinocchio", "proxsuite")
     options, online = options or Options(), online or OnlineOptions()
-    _require_valid(plan, options, online, true_scene)
+    _require_valid(plan, options, online, true_scene, steer)
     walker = robot_for(plan, robot)
     if options.seed:
         options = disturbed(options, options.seed, plan.duration(), walker.mass)
@@ -75,23 +76,20 @@ def run(
     if online.engine == "rhp":
         plan = with_bases(plan, model.urdf_model)
     simulation = Simulation(model, options.torque_delay_s, options.torque_bandwidth_hz)
-    start = posture_at(model.urdf_model, plan, 0.0)
-    on_ground = start.copy()
-    on_ground[2] += options.ground_shift_m
-    simulation.reset(on_ground, np.zeros(model.urdf_model.model.nv))
     with Interruption() as stop:
         kind = HorizonLoop if online.engine == "rhp" else Loop
-        loop = kind(plan, simulation, start, options, online, true_scene)
-        loop.watch = watch
+        loop = kind(plan, simulation, options, online, true_scene, Beside(progress, watch, steer))
         try:
-            result = loop.run(stop, progress)
+            result = loop.run(stop)
         finally:
             loop.planner.close()
     stop.raise_with(result)
     return result
 
 
-def _require_valid(plan: Plan, options: Options, online: OnlineOptions, true_scene: Scene | None) -> None:
+def _require_valid(
+    plan: Plan, options: Options, online: OnlineOptions, true_scene: Scene | None, steer: Steer | None
+) -> None:
     """Raise InvalidOptions or InvalidInput, as run() says."""
     options.validate()
     online.validate()
@@ -101,10 +99,16 @@ def _require_valid(plan: Plan, options: Options, online: OnlineOptions, true_sce
         raise InvalidInput(
             "plan", "must be a plan of ddp: those with forces at points are replanned by engine 'rhp' alone"
         )
+    if steer is not None and online.command:
+        raise InvalidOptions("command", "must be left out where steer asks for velocities", f"{online.command}")
+    if steer is not None and not (online.engine == "ddp" and online.replanning):
+        raise InvalidOptions(
+            "steer", "must be left out without replanning by engine 'ddp': steps are given then", "one"
+        )
     if true_scene is not None:
         true_scene.validate()
     elif not np.isnan(online.told_at_s):
         raise InvalidOptions(
             "told_at_s", "must be given with true_scene, which the planner is told", f"{online.told_at_s:g}"
         )
-    options.require_pushes_within(length_of(plan, options, online))
+    options.require_pushes_within(length_of(plan, options, online, steer is not None))
