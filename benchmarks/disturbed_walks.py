@@ -5,9 +5,9 @@
     python benchmarks/disturbed_walks.py stairs_broad --ground slippery --newtons 0      # one tread with friction 0.1
     python benchmarks/disturbed_walks.py rubbles --engine rhp
 
-A seed draws mass, friction, height of all the ground, motors and sensors, as for `mcplan run --seed`, and when and in which
-direction a push of 0.2 s acts; with `--ground heights` the height of each surface instead, but for those on which the walk
-begins and ends, with `--ground slippery` which surface is slippery, without anything else. Latency is fixed, so that a seed
+A seed draws mass, friction, height of all the ground, a push of up to 40 N, motors and sensors, as for `mcplan run --seed`, and
+when and in which direction a push of `--newtons` acts for 0.2 s; with `--ground heights` the height of each surface, too, but for
+those on which the walk begins and ends, with `--ground slippery` which surface is slippery. Latency is fixed, so that a seed
 gives the same run on every machine. Exit code 1 after a fall.
 """
 
@@ -69,13 +69,11 @@ def true_scene(plan: mp.Plan, ground: str, random: np.random.Generator) -> mp.Sc
 def run(case: Case) -> dict[str, Any]:
     """One walk: what came of it."""
     plan, random = first_plan(case), np.random.default_rng(case.seed)
-    named: dict[str, Any] = {"latency": case.latency_s, "engine": case.engine}
+    named: dict[str, Any] = {"latency": case.latency_s, "engine": case.engine, "seed": case.seed}
     at_s, direction_deg = random.uniform(0.5, max(1.0, 0.8 * plan.duration())), random.uniform(0.0, 360.0)
     if case.newtons > 0.0:
         named["push"] = (case.newtons, PUSH_S, float(at_s), float(direction_deg))
-    if case.ground == "as_planned":
-        named["seed"] = case.seed
-    else:
+    if case.ground != "as_planned":
         named["true_scene"] = true_scene(plan, case.ground, random)
     result = mp.run(plan, **named)
     measures, online = result.measures, result.online
