@@ -12,7 +12,7 @@ from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean, shown
 from mcplan.kinematics.urdf_model import require_urdf
 from mcplan.online.options import OnlineOptions, option_names
-from mcplan.online.steering import ALONE, Beside
+from mcplan.online.steering import ALONE, Beside, require_steerable
 from mcplan.solve import plan as solve
 from mcplan.tracking.choice import make_options
 from mcplan.tracking.options import Options, Push
@@ -47,6 +47,7 @@ def run_any(
     if not isinstance(scene, (Scene, Plan)):
         require_or_path("scene", scene, "a Scene", "a Plan", "a name")
     options, online = chosen_options(values)
+    require_steerable(beside.steer, online)
     from mcplan.online.runner import run
 
     if true_scene is not None and not isinstance(true_scene, Scene):

@@ -6,7 +6,7 @@ import pytest
 
 from mcplan.cli import main
 from mcplan.cli.keyboard import DIRECTIONS, LEAST, MOST, STEPS, Keyboard, require_terminal
-from mcplan.errors import InvalidOptions
+from mcplan.errors import InvalidInput, InvalidOptions
 
 pty = pytest.importorskip("pty")
 termios = pytest.importorskip("termios")
@@ -70,6 +70,12 @@ def test_a_key_that_comes_in_parts_is_one(terminal):
         assert after(keyboard, terminal, b"\x1b[15~\x1bxyz", 0.2).velocity == pytest.approx((STEPS[0], 0.0, 0.0))
 
 
+def test_pushes_come_one_after_the_other(terminal):
+    with Keyboard(0.88, 90.0, terminal.stream) as keyboard:
+        assert after(keyboard, terminal, b"ppp", 0.0).push[2] == DIRECTIONS[0]
+        assert after(keyboard, terminal, b"p", 0.1).push[2] == DIRECTIONS[1]
+
+
 @pytest.mark.parametrize("key", [b"q", b"\x04"])
 def test_a_run_is_ended_by_keys(terminal, key):
     with Keyboard(0.88, 90.0, terminal.stream) as keyboard:
@@ -83,6 +89,20 @@ def test_the_terminal_is_left_as_it_was(terminal):
         assert termios.tcgetattr(terminal.reads)[3] != before[3]
         raise KeyboardInterrupt
     assert termios.tcgetattr(terminal.reads) == before
+
+
+def test_a_terminal_that_hangs_up_ends_the_run(terminal):
+    keyboard = Keyboard(0.88, 90.0, terminal.stream)
+    with keyboard:
+        os.close(terminal.presses)
+        assert keyboard(0.0).ends
+    terminal.presses = os.open(os.devnull, os.O_RDONLY)  # for close()
+
+
+@pytest.mark.parametrize(("height", "mass"), [(0.0, 90.0), (0.88, -1.0), (float("nan"), 90.0)])
+def test_robots_have_a_height_and_a_mass(terminal, height, mass):
+    with pytest.raises(InvalidInput, match="(com_height_m|mass_kg): must be above 0 and finite"):
+        Keyboard(height, mass, terminal.stream)
 
 
 def test_without_a_terminal_there_is_one_line_that_says_so(capfd, tmp_path):

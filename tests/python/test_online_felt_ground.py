@@ -7,6 +7,7 @@ import mcplan as mp
 from mcplan.online.felt_ground import SLIPPING_STEPS, SlipSense, at_felt_heights, with_friction
 from mcplan.online.known_ground import KnownGround
 from mcplan.online.options import OnlineOptions
+from mcplan.online.reach import HIGHER_MAX_M, lifting
 
 
 @pytest.fixture
@@ -27,6 +28,30 @@ def test_surfaces_are_where_feet_stand_on_them(scene, height_m):
         np.testing.assert_allclose(shift, np.tile([0.0, 0.0, height_m * (i == 1)], (len(shift), 1)), atol=1e-12)
     # What is known by now is not felt again.
     assert at_felt_heights(moved, [1], [place], [0.0]) is None
+
+
+def test_feet_are_lifted_higher_over_ground_that_is_felt_elsewhere(scene):
+    ground = KnownGround(scene, None, OnlineOptions(), 4, 20.0)
+    assert ground.unevenness_m() == 0.0
+    ground.scene = at_felt_heights(
+        at_felt_heights(scene, [1], [middle_of(scene.surfaces[1]) + [0.0, 0.0, -0.03]], [0.0]),
+        [2],
+        [middle_of(scene.surfaces[2]) + [0.0, 0.0, 0.02]],
+        [0.0],
+    )
+    assert ground.unevenness_m() == pytest.approx(0.03)
+    talos = mp.load_robot("talos")
+    assert lifting(talos, 0.0) is talos
+    assert lifting(talos, 0.03).swing_height == pytest.approx(talos.swing_height + 0.03)
+    assert lifting(talos, 1.0).swing_height == pytest.approx(talos.swing_height + HIGHER_MAX_M)
+
+
+def test_what_is_told_of_the_ground_is_not_uneven(scene):
+    true = scene.__copy__()
+    true.surfaces = [surface.__copy__() for surface in scene.surfaces]
+    true.surfaces[1].vertices_W = np.asarray(true.surfaces[1].vertices_W) + [0.0, 0.0, 0.05]
+    ground = KnownGround(scene, true, OnlineOptions(told_at_s=0.0), 4, 20.0)
+    assert ground.told(0.0) and ground.unevenness_m() == 0.0
 
 
 def test_slopes_move_so_that_feet_are_on_their_planes():

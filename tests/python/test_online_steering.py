@@ -7,6 +7,7 @@ import pytest
 
 import mcplan as mp
 from mcplan.online import Asked
+from mcplan.online import run as online_run
 from mcplan.online.options import OnlineOptions
 from mcplan.online.steering import steered
 from mcplan.tracking.options import Options
@@ -39,11 +40,13 @@ def test_pushes_begin_when_they_are_asked_for():
 @pytest.mark.parametrize(
     ("wish", "says"),
     [
-        ((0.1, 0.0, 0.0), r"steer: must return an Asked, got \(0.1, 0.0, 0.0\)"),
+        ((0.1, 0.0, 0.0), r"steer\(\): must return an Asked, got \(0.1, 0.0, 0.0\)"),
         (Asked((0.1, 0.0)), r"steer\(\).velocity: must be three finite numbers"),
+        (Asked(("1", "2", "3")), r"steer\(\).velocity: must be three finite numbers"),
         (Asked((float("nan"), 0.0, 0.0)), r"steer\(\).velocity: must be three finite numbers"),
         (Asked(push=("a", 1, 2)), r"steer\(\).push: must be three finite numbers"),
-        (Asked(push=(10.0, -1.0, 0.0)), r"pushes\[0\].duration_s: must not be negative"),
+        (Asked(push=(10.0, -1.0, 0.0)), r"steer\(\).push\[1\]: must not be negative, got -1"),
+        (Asked(ends="no"), r"steer\(\).ends: must be true or false"),
     ],
 )
 def test_what_cannot_be_asked_for_is_named(wish, says):
@@ -59,37 +62,41 @@ def plan():
 def test_a_steered_run_is_repeated_by_its_options(plan):
     def steer(time_s: float) -> Asked:
         ahead = 0.1 if time_s > 0.5 else 0.0
-        return Asked((ahead, 0.0, 0.0), (60.0, 0.1, 90.0) if time_s == 0.8 else None, time_s > 1.2)
+        return Asked((ahead, 0.0, 0.0), (60.0, 0.1, 90.0) if time_s in (0.8, 1.2) else None, time_s >= 1.2)
 
     first = mp.run(plan, steer=steer, latency=0.02, self_contacts=False)
-    assert first.measures.completed_s == pytest.approx(1.204, abs=0.01)
+    assert first.measures.completed_s == pytest.approx(first.online_options.duration_s) == pytest.approx(1.2)
     assert [row[1] for row in first.online_options.command] == [0.0, 0.1]
-    assert [push.force_N for push in first.options.pushes] == [60.0]
-    again = mp.run(
-        plan,
-        command=first.online_options.command,
-        pushes=first.options.pushes,
-        duration=first.measures.completed_s,
-        latency=0.02,
-        self_contacts=False,
-    )
+    assert [push.at_s for push in first.options.pushes] == [0.8]  # one at the end would not act
+    again = online_run(plan, None, first.options, first.online_options)
     assert first.online.replans == again.online.replans >= 10
     for item in dataclasses.fields(first.recording):
-        value, other = getattr(first.recording, item.name), getattr(again.recording, item.name)
-        if isinstance(value, np.ndarray) and len(value) > len(other) > 0:
-            value = value[: len(other)]  # the step in which the end is asked for is simulated
+        value = getattr(first.recording, item.name)
         if isinstance(value, np.ndarray):
-            assert value.tobytes() == other[: len(value)].tobytes(), item.name
+            assert value.tobytes() == getattr(again.recording, item.name).tobytes(), item.name
 
 
 @pytest.mark.parametrize(
     ("named", "says"),
     [
-        ({"command": (0.1, 0.0, 0.0)}, "command: must be left out where steer asks"),
-        ({"replanning": False}, "steer: must be left out without replanning"),
-        ({"engine": "rhp"}, "steer: must be left out without replanning by engine 'ddp'"),
+        ({"command": (0.1, 0.0, 0.0)}, "command: must be left as it is by default where the run is steered"),
+        ({"goal": (1.0, 0.0)}, "goal: must be left as it is"),
+        ({"replanning": False}, "replanning: must be left as it is"),
+        ({"engine": "rhp"}, "engine: must be left as it is .*, got .*rhp"),
     ],
 )
-def test_who_cannot_be_steered_says_so(plan, named, says):
+def test_what_says_otherwise_where_to_walk_is_refused(plan, named, says):
     with pytest.raises(mp.errors.InvalidOptions, match=says):
         mp.run(plan, steer=lambda _: Asked(), **named)
+
+
+@pytest.mark.parametrize("steer", [5, "ahead", False, (0.1, 0.0, 0.0)])
+def test_what_is_no_function_does_not_steer(plan, steer):
+    with pytest.raises(mp.errors.InvalidArgument, match="steer: must be a function of the simulated time"):
+        mp.run(plan, steer=steer)
+
+
+def test_a_push_at_every_step_is_one_after_the_other(plan):
+    result = mp.run(plan, steer=lambda t: Asked(push=(5.0, 0.001, 90.0), ends=t > 0.05), latency=0.02)
+    assert len(result.options.pushes) > 20
+    np.testing.assert_allclose(np.linalg.norm(result.recording.pushes_W[:20], axis=1), 5.0)

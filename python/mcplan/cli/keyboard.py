@@ -9,7 +9,8 @@ import time
 from types import TracebackType
 from typing import Any
 
-from mcplan.errors import InvalidOptions
+from mcplan.cli.key_mode import KeyMode
+from mcplan.errors import InvalidInput, InvalidOptions
 from mcplan.online.steering import Asked
 
 Velocity = tuple[float, float, float]
@@ -54,10 +55,14 @@ class Keyboard:
         velocity: Ahead, to the left [m/s], turning [rad/s].
 
     Raises:
+        InvalidInput: A robot of no height or mass.
         InvalidOptions: The stream is no terminal, or the system has none whose keys can be read one by one.
     """
 
     def __init__(self, com_height_m: float, mass_kg: float, stream: Any = None) -> None:
+        for name, value in (("com_height_m", com_height_m), ("mass_kg", mass_kg)):
+            if not 0.0 < value < float("inf"):
+                raise InvalidInput(name, "must be above 0 and finite", f"{value:g}")
         ratio = (com_height_m / HUMAN_M) ** 0.5
         self._scale: Velocity = (ratio, ratio, 1.0 / ratio)
         self._push_N = PUSH_N * mass_kg / HUMAN_KG
@@ -65,8 +70,8 @@ class Keyboard:
         self._counts = [0, 0, 0]
         self._pending = b""
         self._pushes, self._began_s, self._looked_s = 0, -1.0, -1.0
-        self._before: list[Any] | None = None
         require_terminal(self._stream)
+        self._mode = KeyMode(self._stream.fileno())
 
     @property
     def velocity(self) -> Velocity:
@@ -75,18 +80,11 @@ class Keyboard:
         return ahead, left, turn
 
     def __enter__(self) -> Keyboard:
-        import termios
-        import tty
-
-        self._before = termios.tcgetattr(self._stream.fileno())
-        tty.setcbreak(self._stream.fileno())  # Ctrl-C stays what it is
+        self._mode.begin()
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        import termios
-
-        if self._before is not None:
-            termios.tcsetattr(self._stream.fileno(), termios.TCSADRAIN, self._before)
+        self._mode.end()
 
     def __call__(self, time_s: float) -> Asked:
         """What the keys ask for that were pressed since the last call; see mcplan.online.Asked."""
@@ -100,7 +98,7 @@ class Keyboard:
                 self._change(*_STEERS[key])
             elif key == b" ":
                 self._counts = [0, 0, 0]
-            elif key == b"p":
+            elif key == b"p" and push is None:
                 push = (self._push_N, PUSH_S, DIRECTIONS[self._pushes % len(DIRECTIONS)])
                 self._pushes += 1
             ends = ends or key in _ENDS
@@ -127,11 +125,14 @@ class Keyboard:
     def _pressed(self) -> list[bytes]:
         """Keys since the last call; what a terminal has sent of one in part waits for its rest."""
         descriptor = self._stream.fileno()
-        while select.select([descriptor], [], [], 0.0)[0]:
-            more = os.read(descriptor, 64)
-            if not more:  # nobody is there any more
-                return [b"q"]
-            self._pending += more
+        try:
+            while select.select([descriptor], [], [], 0.0)[0]:
+                more = os.read(descriptor, 64)
+                if not more:  # nobody is there any more
+                    return [b"q"]
+                self._pending += more
+        except OSError:  # nor is the terminal
+            return [b"q"]
         keys = []
         while self._pending:
             length = _length(self._pending)
@@ -162,5 +163,5 @@ def require_terminal(stream: Any) -> None:
         import termios  # noqa: F401  # not everywhere
     except ImportError:
         raise InvalidOptions("--steer", "must be used on a system with terminals of POSIX", sys.platform) from None
-    if stream is None or not stream.isatty():
+    if stream is None or stream.closed or not stream.isatty():
         raise InvalidOptions("--steer", "must be used in a terminal, whose keys it reads", "another standard input")

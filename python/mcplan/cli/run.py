@@ -107,6 +107,7 @@ ReplanningOption = Annotated[
     duration_s="--duration",
     told_at_s="--told-at",
     true_scene="--true-scene",
+    replanning="--replanning",
     friction_scale="--friction",
     ground_shift_m="--ground-shift",
     torque_bandwidth_hz="--torque-bandwidth",
@@ -182,7 +183,7 @@ def _run(
     from mcplan.cli.terminal import printable
     from mcplan.cli.track_text import Progress
     from mcplan.extras import require
-    from mcplan.online.steering import Beside
+    from mcplan.online.steering import Beside, require_undecided
     from mcplan.running import chosen_options, first_plan, run_any
 
     if telling.steer:
@@ -190,10 +191,15 @@ def _run(
     require("mcplan run", "sim", "mujoco", "pinocchio", "proxsuite")
     outputs.require()
     _, online = chosen_options(values)
+    if telling.steer:
+        require_undecided(online)
     progress = Progress(telling.quiet or telling.json)
     progress.working("planning")
     scene, robot, true_scene = walk
-    plan = first_plan(scene, robot, online)
+    try:
+        plan = first_plan(scene, robot, online)
+    finally:
+        progress.end()
     with watching(telling.live, plan, None) as watch, _steering(telling, plan, progress) as (steer, simulated):
         beside = Beside(simulated, watch, steer)
         result, interrupted = as_far_as_it_came(lambda: run_any(plan, robot, values, beside, true_scene))
@@ -218,7 +224,6 @@ def _steering(
     from mcplan.cli.keyboard import KEYS, Keyboard
 
     with Keyboard(plan.robot.com_height, plan.robot.mass) as keyboard:
-        progress.end()
         print(KEYS, file=sys.stderr, flush=True)
         yield keyboard, lambda now_s, _: progress.working(f"{now_s:.1f} s: {keyboard}")
 

@@ -42,6 +42,7 @@ class KnownGround:
             require_known(true, planned)
         self.scene, self.felt = planned, 0
         self._planned, self._online = planned, online
+        self._known = planned  # but for what is felt
         self._untold = true
         self._slips = SlipSense(end_effectors, force_min_N)
 
@@ -49,7 +50,8 @@ class KnownGround:
         """Whether the true ground becomes known now."""
         if self._untold is None or not now_s >= self._online.told_at_s:
             return False
-        self.scene, self._untold = as_told(self._untold, self._planned), None
+        self.scene = self._known = as_told(self._untold, self._planned)
+        self._untold = None
         return True
 
     def feel_heights(self, state: MeasuredState, speeds_m_s: Sequence[float]) -> bool:
@@ -66,6 +68,13 @@ class KnownGround:
             return False
         self.scene, self.felt = moved, self.felt + 1
         return True
+
+    def unevenness_m(self) -> float:
+        """How far surfaces have been felt to lie higher or lower than they were known to, at most [m]."""
+        known = self.scene.surfaces
+        felt = zip(known, self._known.surfaces, strict=True)
+        shifts = [np.ptp(np.asarray([a.vertices_W[0], b.vertices_W[0]])[:, 2]) for a, b in felt]
+        return float(max(shifts, default=0.0))
 
     def feel_slips(
         self, surfaces: Sequence[int], forces_W: Sequence[Array], velocities_W: Sequence[Array]

@@ -13,7 +13,7 @@ from mcplan._core import Plan, Scene
 from mcplan.errors import InvalidInput
 from mcplan.tracking.interruption import Interruption
 from mcplan.tracking.measures import measure, with_touches
-from mcplan.tracking.options import Options
+from mcplan.tracking.options import Options, Push
 from mcplan.tracking.recorder import Acting, Recorder
 from mcplan.tracking.references import references
 from mcplan.tracking.robot_dynamics import RobotDynamics
@@ -30,10 +30,10 @@ from .measures import Tally
 from .options import OnlineOptions
 from .pacing import Pace, steps_left
 from .planner import Planner, Update
-from .reach import widened
+from .reach import lifting, widened
 from .result import FollowedPlan, RunResult
 from .state import StateReader
-from .steering import ALONE, Beside, steered
+from .steering import ALONE, Beside, as_it_was, steered
 
 if TYPE_CHECKING:
     from mcplan.tracking.controller import Controller
@@ -123,11 +123,13 @@ class Loop:
         self.late_s = np.inf  # since when an end-effector is late
         self.other_ground = False  # what the plan under way does not know yet
         self.plans = [FollowedPlan(plan, 0.0, 0.0)]
-        count = int(np.ceil(self.length_s / self.dt_s)) + 1
+        count = int(np.ceil(self.length_s / self.dt_s - 1e-9)) + 1
         self.followed = FollowedReferences(count, desired)
         self.recorder = Recorder(plan, self.urdf_model, simulation.model.joints, self.followed)
         self.failures, self.control_s = 0, 0.0
         self.beside, self.ends = beside, False
+        self.pushes: list[Push] = []
+        self.pushes_known = 0
 
     def _planning(self, plan: Plan, online: OnlineOptions) -> tuple[Planner, Pace]:
         """Who replans, and when."""
@@ -138,8 +140,7 @@ class Loop:
         if not np.isnan(limit_s):
             named["time_limit"] = limit_s
         planner = Planner(plan, 0.0, command=None, period_s=online.period_s, **named)
-        self.reaches = [plan.robot, *([widened(plan.robot)] if online.wide_reach else [])]
-        planner.robots = self.reaches
+        self.reaches = self.known_reaches = [plan.robot, *([widened(plan.robot)] if online.wide_reach else [])]
         return planner, Pace(online)
 
     @property
@@ -189,7 +190,7 @@ class Loop:
             dynamics.update(*state)
         if self.beside.watch is not None:
             self.beside.watch(now_s, state[0], self.plan.plan)
-        push = sum((p.force_W(now_s) for p in options.pushes), np.zeros(3))
+        push = sum((p.force_W(now_s) for p in self._acting(now_s)), np.zeros(3))
         steps = round(self.dt_s / options.simulation_step_s)
         given = simulation.advance(command.torques, np.concatenate([push, np.zeros(3)]), steps)
         self.followed.add(n, *self.controller.row(n))
@@ -197,6 +198,14 @@ class Loop:
         if steps_left(self.plan.plan, now_s - self.plan.begins_s):
             self.tally.oldest_s = max(self.tally.oldest_s, now_s - self.plan.begins_s)
         return dynamics
+
+    def _acting(self, now_s: float) -> list[Push]:
+        """Pushes but for those that are over."""
+        asked = self.options.pushes
+        self.pushes += asked[self.pushes_known :]
+        self.pushes_known = len(asked)
+        self.pushes = [push for push in self.pushes if now_s < push.at_s + push.duration_s]
+        return self.pushes
 
     def _searching(self, now_s: float) -> bool:
         """Whether a late end-effector comes down on ground that is lower than planned: a new plan would hold it up again."""
@@ -227,6 +236,7 @@ class Loop:
         self.other_ground |= told
         if told | self.ground.feel_heights(state, self.controller.speeds_m_s()):
             self._plan_on(self.ground.scene)
+            self.reaches = [lifting(robot, self.ground.unevenness_m()) for robot in self.known_reaches]
         # Near the goal the phases that are left are enough, unless the robot has to catch itself.
         leads_on = self.planner.command is None and not self.aim.open and not self.other_ground
         few = reason in ("period", "touchdown") and leads_on
@@ -357,15 +367,11 @@ class Loop:
             realtime_factor=(n + 1) * self.dt_s / wall_s,
             control_ms=1e3 * self.control_s / (n + 1),
         )
-        return RunResult(
-            recording,
-            measures,
-            self.options,
-            interrupted,
-            self.tally.measures(self.ground.felt, self._goal_off_m(n * self.dt_s)),
-            self.online,
-            tuple(self.plans),
-        )
+        options, online = self.options, self.online
+        if self.beside.steer is not None:
+            options, online = as_it_was(options, online, n * self.dt_s)
+        tally = self.tally.measures(self.ground.felt, self._goal_off_m(n * self.dt_s))
+        return RunResult(recording, measures, options, interrupted, tally, online, tuple(self.plans))
 
     def _goal_off_m(self, now_s: float) -> float | None:
         """From the CoM to the goal, on the level [m]; None: none is walked to."""

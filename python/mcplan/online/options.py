@@ -118,8 +118,7 @@ def _last(
     rows: tuple[tuple[float, float, float, float], ...], time_s: float
 ) -> tuple[float, float, float, float] | None:
     """The row that began last at a time [s]; None: none has begun."""
-    past = [row for row in rows if row[0] <= time_s + 1e-9]
-    return past[-1] if past else None
+    return next((row for row in reversed(rows) if row[0] <= time_s + 1e-9), None)
 
 
 def option_names() -> list[str]:

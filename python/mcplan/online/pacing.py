@@ -47,7 +47,7 @@ class Pace:
         """
         options = self._options
         if np.isinf(self._last_s):  # under a command the first plan, which leads to a goal, is replaced at once
-            self._last_s = now_s - (options.period_s if self.commanded else 0.0)
+            self._last_s = -options.period_s if self.commanded else 0.0
         since_s = now_s - self._last_s
         self._touched |= touchdown
         if since_s < options.pause_s - 1e-9:

@@ -1,4 +1,4 @@
-"""How far legs may reach when a robot has to catch itself."""
+"""How far legs may reach when a robot has to catch itself, and how high feet are lifted over ground that is uneven."""
 
 from __future__ import annotations
 
@@ -15,6 +15,22 @@ if TYPE_CHECKING:
 AHEAD, OUTWARD = 0.285, 0.34
 #: Least distance between the edges of two soles beside each other [m].
 BESIDE_M = 0.02
+
+#: Feet are lifted higher by this ratio of how far surfaces lie from where they were known to, by so much at most [m].
+HIGHER_RATIO, HIGHER_MAX_M = 1.0, 0.05
+
+
+def lifting(robot: Robot, unevenness_m: float) -> Robot:
+    """The robot that lifts its feet higher over ground that has been found to be uneven by so much [m].
+
+    Where one surface lies elsewhere, the next one may, too: a swing that clears it by a little as it is known hits its
+    edge. A swing is lifted by half its height or more where it passes the edge of a step.
+    """
+    if unevenness_m <= 0.0:
+        return robot
+    higher = robot.__copy__()
+    higher.swing_height = robot.swing_height + min(HIGHER_RATIO * unevenness_m, HIGHER_MAX_M)
+    return higher
 
 
 def widened(robot: Robot) -> Robot:

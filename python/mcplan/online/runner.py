@@ -23,7 +23,7 @@ from .horizon_planner import require_steps
 from .loop import Loop
 from .options import OnlineOptions
 from .result import RunResult
-from .steering import Beside, Steer
+from .steering import Beside, Steer, require_steerable
 
 Array = NDArray[np.float64]
 
@@ -99,12 +99,7 @@ def _require_valid(
         raise InvalidInput(
             "plan", "must be a plan of ddp: those with forces at points are replanned by engine 'rhp' alone"
         )
-    if steer is not None and online.command:
-        raise InvalidOptions("command", "must be left out where steer asks for velocities", f"{online.command}")
-    if steer is not None and not (online.engine == "ddp" and online.replanning):
-        raise InvalidOptions(
-            "steer", "must be left out without replanning by engine 'ddp': steps are given then", "one"
-        )
+    require_steerable(steer, online)
     if true_scene is not None:
         true_scene.validate()
     elif not np.isnan(online.told_at_s):

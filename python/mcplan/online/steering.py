@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from mcplan.errors import InvalidInput, shown
+from mcplan.errors import InvalidArgument, InvalidInput, InvalidOptions, shown
 from mcplan.tracking.options import Push
 
 if TYPE_CHECKING:
@@ -58,6 +58,24 @@ class Beside(NamedTuple):
 ALONE = Beside()
 
 
+def require_steerable(steer: Steer | None, online: OnlineOptions) -> None:
+    """Raise InvalidArgument where that is no function, InvalidOptions where the options say otherwise where to walk."""
+    if steer is None:
+        return
+    if not callable(steer):
+        raise InvalidArgument("steer", "must be a function of the simulated time", shown(steer))
+    require_undecided(online)
+
+
+def require_undecided(online: OnlineOptions) -> None:
+    """Raise InvalidOptions naming the option that says where a robot walks, which is steered."""
+    usual = {"command": (), "goal": (), "engine": "ddp", "replanning": True}
+    for name, value in usual.items():
+        if getattr(online, name) != value:
+            rule = "must be left as it is by default where the run is steered"
+            raise InvalidOptions(name, rule, shown(getattr(online, name)))
+
+
 def steered(steer: Steer, now_s: float, options: Options, online: OnlineOptions) -> tuple[Options, OnlineOptions, bool]:
     """Options with what is asked for now, so that a run with them repeats this one, and whether it is over.
 
@@ -71,22 +89,34 @@ def steered(steer: Steer, now_s: float, options: Options, online: OnlineOptions)
     """
     asked = steer(now_s)
     if not isinstance(asked, Asked):
-        raise InvalidInput("steer", "must return an Asked", shown(asked))
-    velocity = asked.velocity
-    if velocity is not None:
-        row = (now_s, *_three("velocity", velocity))
+        raise InvalidInput("steer()", "must return an Asked", shown(asked))
+    if not isinstance(asked.ends, (bool, np.bool_)):
+        raise InvalidInput("steer().ends", "must be true or false", shown(asked.ends))
+    if asked.velocity is not None:
+        row = (now_s, *_three("velocity", asked.velocity))
         if not online.command or online.command[-1][1:] != row[1:]:
             online = replace(online, command=(*online.command, row))
     if asked.push is not None:
         newtons, seconds, direction_deg = _three("push", asked.push)
-        options = replace(options, pushes=(*options.pushes, Push(newtons, seconds, now_s, direction_deg)))
-        options.validate()
-    return options, online, asked.ends
+        if seconds < 0.0:
+            raise InvalidInput("steer().push[1]", "must not be negative", f"{seconds:g}")
+        if not asked.ends:
+            options = replace(options, pushes=(*options.pushes, Push(newtons, seconds, now_s, direction_deg)))
+    return options, online, bool(asked.ends)
+
+
+def as_it_was(options: Options, online: OnlineOptions, run_s: float) -> tuple[Options, OnlineOptions]:
+    """Options that repeat a run of that length [s]: no push begins at its last instant."""
+    pushes = tuple(push for push in options.pushes if push.at_s < run_s)
+    if np.isnan(online.duration_s):
+        online = replace(online, duration_s=run_s)
+    return replace(options, pushes=pushes), online
 
 
 def _three(name: str, values: object) -> tuple[float, float, float]:
     try:
-        numbers = np.asarray(values, dtype=float)
+        numbers = np.asarray(values)
+        numbers = numbers.astype(float) if numbers.dtype.kind in "fiu" else np.zeros(0)
     except (TypeError, ValueError):
         numbers = np.zeros(0)
     if numbers.shape != (3,) or not np.isfinite(numbers).all():

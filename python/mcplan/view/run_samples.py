@@ -43,6 +43,8 @@ class RunFrames:
 
 def frame_indices(times_s: Array, rate_hz: float) -> NDArray[np.int64]:
     """Instants of a recording nearest to equally spaced ones, first and last included, each once."""
+    if len(times_s) == 1:
+        return np.zeros(1, dtype=np.int64)
     count = max(2, round(float(times_s[-1] - times_s[0]) * rate_hz) + 1)
     desired = np.linspace(times_s[0], times_s[-1], count)
     after = np.clip(np.searchsorted(times_s, desired), 1, len(times_s) - 1)
@@ -77,15 +79,15 @@ def frames_of(recording: Recording, urdf_model: UrdfModel, rate_hz: float) -> Ru
     for interval in intervals:
         lasts = (times >= interval.start_s) & (times <= interval.end_s)
         surfaces[lasts, interval.end_effector] = interval.surface
-    com_velocity_W = np.gradient(recording.com_W, recording.times_s, axis=0)
+    com_velocity_W = _rate(recording.com_W, recording.times_s)
     samples = Samples(
         times_s=times,
         com_W=recording.com_W[chosen],
         com_velocity_W=com_velocity_W[chosen],
-        com_acceleration_W=np.gradient(com_velocity_W, recording.times_s, axis=0)[chosen],
+        com_acceleration_W=_rate(com_velocity_W, recording.times_s)[chosen],
         rotation_WB=rotation_WB,
         positions_W=positions,
-        velocities_W=np.gradient(recording.end_effectors_W, recording.times_s, axis=0)[chosen],
+        velocities_W=_rate(recording.end_effectors_W, recording.times_s)[chosen],
         rotations_W=soles_W,
         forces_W=recording.forces_W[chosen],
         pressure_W=positions,
@@ -99,6 +101,11 @@ def frames_of(recording: Recording, urdf_model: UrdfModel, rate_hz: float) -> Ru
     return RunFrames(
         samples, configurations, configurations[:, :3], recording.pushes_W[chosen], recording.assist[chosen, :3]
     )
+
+
+def _rate(values: Array, times_s: Array) -> Array:
+    """Derivatives (n, ...) with respect to time; of a single instant zero."""
+    return np.gradient(values, times_s, axis=0) if len(times_s) > 1 else np.zeros_like(values)
 
 
 def simulated_intervals(recording: Recording, scene: Scene) -> list[Interval]:

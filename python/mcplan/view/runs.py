@@ -26,6 +26,9 @@ class AnyResult(Protocol):
     def options(self) -> Options: ...
 
 
+#: Time that is drawn at least [s], of a run that ended when it began.
+LEAST_S = 1e-3
+
 #: A recording, or the result that carries one.
 Run: TypeAlias = Recording | TrackingResult
 AnyRun: TypeAlias = AnyRecording | AnyResult
@@ -46,3 +49,8 @@ def ground_shift_of(run: AnyRun) -> float:
     """Height [m] by which the simulated ground lay above the planned one; 0 where only the recording is known."""
     options = getattr(run, "options", None)
     return 0.0 if options is None else float(options.ground_shift_m)
+
+
+def was_replanned(run: AnyRun) -> bool:
+    """Whether other plans than the first one were followed, whose footholds are not those that it has."""
+    return len(getattr(run, "plans", ())) > 1

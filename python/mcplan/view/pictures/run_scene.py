@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.kinematics.samples import contact_intervals
+from mcplan.kinematics.samples import Interval, contact_intervals
 from mcplan.kinematics.urdf_model import load_model
 from mcplan.tracking import Recording
 from mcplan.view.colours import PUSH, end_effector_colours
 from mcplan.view.extent import extent_of
 from mcplan.view.robot_urdf import mesh_figure
 from mcplan.view.run_samples import RunFrames, frames_of
-from mcplan.view.runs import Run, ground_shift_of, recording_of
+from mcplan.view.runs import Run, ground_shift_of, recording_of, was_replanned
 from mcplan.view.scene_drawing import raised, surface_drawings
 from mcplan.view.viewpoint import sun_direction
 
@@ -54,7 +54,9 @@ def scene_of(run: Run, rate_hz: float) -> RunScene:
         figure=mesh_figure(urdf_model, frames.configurations, colours),
         arrows=[_arrows(frames, n, weight, height) for n in range(samples.count)],
         drawings=[raised(drawing, shift) for drawing in surface_drawings(scene, extent)],
-        footholds=_footholds(recording, robot, colours, shift),
+        footholds=_made(samples.intervals, robot, colours)
+        if was_replanned(run)
+        else _planned(recording, colours, shift),
         forward=extent.forward,
         sun_W=sun_direction(extent),
         height_m=height,
@@ -75,13 +77,21 @@ def _arrows(frames: RunFrames, n: int, weight_N: float, height_m: float) -> list
     return found
 
 
-def _footholds(recording: Recording, robot: Robot, colours: list[str], shift: float) -> list[tuple[Array, str]]:
+def _planned(recording: Recording, colours: list[str], shift: float) -> list[tuple[Array, str]]:
+    """Outlines of the footholds of the plan, on the ground that is simulated so much higher."""
+    robot = recording.simulated_robot
+    intervals = contact_intervals(recording.plan, recording.plan.scene, robot)
+    return [(outline + [0.0, 0.0, shift], colour) for outline, colour in _made(intervals, robot, colours)]
+
+
+def _made(intervals: list[Interval], robot: Robot, colours: list[str]) -> list[tuple[Array, str]]:
+    """Outlines (4, 2, 3) of soles in contact."""
     outlines = []
     signs = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
-    for interval in contact_intervals(recording.plan, recording.plan.scene, robot):
+    for interval in intervals:
         half = np.asarray(robot.end_effectors[interval.end_effector].half_size, float)
         half = half if half.all() else np.full(2, 0.04 * float(robot.com_height))
         corners = np.column_stack([signs * half, np.full(4, 0.004)])
-        outline = interval.position_W + corners @ interval.rotation_W.T + np.array([0.0, 0.0, shift])
+        outline = interval.position_W + corners @ interval.rotation_W.T
         outlines.append((np.stack([outline, np.roll(outline, -1, axis=0)], axis=1), colours[interval.end_effector]))
     return outlines

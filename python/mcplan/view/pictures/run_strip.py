@@ -179,6 +179,18 @@ def fitted(points_W: Array, eye: Eye, size: tuple[int, int], margin: float) -> E
     return Eye(target, distance, eye.azimuth_deg, eye.elevation_deg)
 
 
+def _with_pushes(times_s: Array, run: AnyRun) -> Array:
+    """Instants of which those nearest to a push are moved into it, but for the first and the last."""
+    out = times_s.copy()
+    for push in getattr(getattr(run, "options", None), "pushes", ()):
+        middle = push.at_s + 0.5 * push.duration_s
+        if len(out) < 3 or not out[0] < middle < out[-1]:
+            continue
+        nearest = 1 + int(np.argmin(np.abs(times_s[1:-1] - middle)))
+        out[nearest] = middle
+    return np.sort(out)
+
+
 def _png(path: str | Path) -> Path:
     if Path(path).suffix.lower() != ".png":
         raise InvalidInput("path", "must end in .png", shown_path(path))
@@ -194,7 +206,7 @@ def _laid_out(
     if isinstance(chosen, int):
         if chosen < 1:
             raise InvalidInput(name, "must be at least 1", str(chosen))
-        times = np.linspace(0.0, last, chosen)
+        times = _with_pushes(np.linspace(0.0, last, chosen), run)
     else:
         times = np.asarray(list(chosen), float)
         if not len(times):

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mcplan.tracking import Recording
 from mcplan.view.colours import PUSH, TEXT
 from mcplan.view.run_samples import stretches_of
+from mcplan.view.runs import LEAST_S
 from mcplan.view.sheets import label, legend, support_patches
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ def finish(figure: Figure, axes: Any, recording: Recording, lines: Any = None) -
 
     for chart in axes[-1]:
         label(chart, x="time [s]")
-    last = float(recording.times_s[-1])
+    last = max(float(recording.times_s[-1]), LEAST_S)
     axes[0, 0].set_xlim(0.0, last * (1.004 if np.isfinite(recording.fell_at_s) else 1.0))
     handles = lines.get_legend_handles_labels()[0] if lines is not None else []
     count = np.sum(recording.contacts_plan >= 0, axis=1)

@@ -11,6 +11,7 @@ from mcplan.kinematics.rotations import polygon_normal
 from mcplan.tracking import Recording
 from mcplan.tracking.measures import rms
 from mcplan.view.colours import PLANNED, TEXT, end_effector_colours, plain
+from mcplan.view.runs import LEAST_S
 from mcplan.view.sheets import QUIET, label, sheet
 
 from .run_axes import finish, shade_run
@@ -73,7 +74,7 @@ def plot_run_torques(recording: Recording) -> Figure:
     count = min(len(recording.times_s), 900)
     starts = np.linspace(0, len(recording.times_s), count, endpoint=False).astype(int)
     largest = np.maximum.reduceat(ratio, starts, axis=0)
-    last = float(recording.times_s[-1])
+    last = max(float(recording.times_s[-1]), LEAST_S)
     image = chart.imshow(
         largest.T,
         aspect="auto",
