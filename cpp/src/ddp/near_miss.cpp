@@ -9,6 +9,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Ratio of a phase's duration from which on an instant lies between its knots, and of what is missed there by which
+/// the instants that are looked at are kept further inside. Chosen.
+constexpr double kBetweenKnots = 0.02, kRoomRatio = 1.5;
+
 /// A box that is smaller on all sides; one that is thinner than that keeps its middle.
 void shrink(EndLimits& limit, double by) {
   const Vector3d middle = 0.5 * (limit.reach_min + limit.reach_max);
@@ -71,6 +75,21 @@ void tighten(Problem& problem, Tuning& tuning, const std::vector<Violation>& vio
       hold_joints(problem, tuning, 0.0, v.value);
     }
   }
+}
+
+void tighten_between_knots(Problem& problem, Tuning& tuning, std::vector<Violation> violations, const Plan& plan) {
+  const std::vector<double> times = plan.knot_times();
+  const auto between = [&](const Violation& v) {
+    if (v.name != "reach" || v.phase < 0 || v.phase >= static_cast<int>(plan.phases.size())) return false;
+    const int e = plan.robot.end_effector_index(v.end_effector);
+    const double nearest_s = std::min(v.time_s - times[v.phase], times[v.phase + 1] - v.time_s);
+    return e >= 0 && plan.phases[v.phase].contacts[e].surface != kFree &&
+           nearest_s > kBetweenKnots * plan.phases[v.phase].duration;
+  };
+  for (const Violation& v : violations)
+    if (between(v)) problem.reach_room += kRoomRatio * v.value / problem.units.length;
+  violations.erase(std::remove_if(violations.begin(), violations.end(), between), violations.end());
+  tighten(problem, tuning, violations);
 }
 
 }  // namespace mcplan::ddp

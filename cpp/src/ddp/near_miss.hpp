@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "ddp/problem.hpp"
+#include "mcplan/plan/plan.hpp"
 #include "mcplan/plan/report.hpp"
 
 namespace mcplan::ddp {
@@ -12,5 +13,9 @@ namespace mcplan::ddp {
 /// the plan is within it when the search aims that much further inside. `violations` are the checker's, in SI units,
 /// those within their tolerance left out. What the search has no limit for stays as it is.
 void tighten(Problem& problem, Tuning& tuning, const std::vector<Violation>& violations);
+
+/// The same of a motion whose sequence stays: what a contact misses of its reach between two knots of `plan` is kept
+/// further inside there, and at the knots, which know of it, nothing is.
+void tighten_between_knots(Problem& problem, Tuning& tuning, std::vector<Violation> violations, const Plan& plan);
 
 }  // namespace mcplan::ddp

@@ -99,6 +99,7 @@ class Problem {
   std::vector<double> thickness;       ///< by scene surface, of the solid below it
   double swing_height = 0.0;           ///< by which an end-effector is lifted usually
   double swing_room = kPathRoom;       ///< that soles keep from solids where swings are held out of them
+  double reach_room = 0.0;             ///< contacts keep inside of their reach between the knots
   bool watch_swings = false;           ///< swings are held out of solids from the first attempt on
   std::vector<Eigen::Vector3d> idle_hands;  ///< nominal places of hands that may touch nothing
   std::vector<int> standing_solids;         ///< surfaces whose solids come near the reference of the CoM

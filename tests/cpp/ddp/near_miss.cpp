@@ -111,3 +111,32 @@ TEST_CASE("joints that were asked for too much are held, and what the search has
   CHECK(other.friction == usual.friction);
   CHECK(other.swing_room == usual.swing_room);
 }
+
+TEST_CASE("what a contact misses of its reach between knots is kept further inside there, all else on all sides") {
+  mcplan::Plan plan;
+  plan.robot = scenes::humanoid44();
+  const int foot = plan.robot.end_effector_index("left_foot");
+  plan.phases.resize(4);
+  for (mcplan::Phase& phase : plan.phases) {
+    phase.duration = 0.5;
+    phase.contacts.resize(plan.robot.end_effectors.size());
+    for (mcplan::Contact& contact : phase.contacts) contact.surface = 0;
+  }
+  plan.phases[3].contacts[foot].surface = -1;
+  const ddp::Problem usual = walk();
+  const auto after_miss = [&](int phase, double time_s) {
+    ddp::Problem problem = walk();
+    ddp::Tuning tuning = problem.tuning();
+    ddp::tighten_between_knots(problem, tuning, {{"reach", phase, "left_foot", time_s, 0.004, 0.001, "m", ""}}, plan);
+    return problem;
+  };
+  const ddp::Problem between = after_miss(2, 1.25);
+  CHECK(between.reach_room * between.units.length == doctest::Approx(0.006));
+  CHECK(between.limits[0].reach_min.isApprox(usual.limits[0].reach_min));
+  // At a knot, and of a foot in the air, it is the box that gives way.
+  for (const ddp::Problem& problem : {after_miss(2, 1.0), after_miss(2, 1.5), after_miss(3, 1.75)}) {
+    CHECK(problem.reach_room == 0.0);
+    CHECK(((problem.limits[0].reach_min - usual.limits[0].reach_min) * usual.units.length)
+              .isApprox(Vector3d::Constant(0.004), 1e-9));
+  }
+}

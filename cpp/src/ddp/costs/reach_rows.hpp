@@ -11,6 +11,7 @@ inline void write_reach(const StepView& step, int l, const Eigen::Vector3d& com,
                         const Instant* inside, Rows& rows) {
   const Layout& at = step.problem.layout;
   const EndLimits& limit = step.problem.limits[l];
+  const double room = inside ? step.problem.reach_room : 0.0;
   const double weight = inside ? step.schedule.interior_weight : step.schedule.tuning.limit_weight;
   const Eigen::Matrix3d r = rotation_from_rpy(rpy);
   const Eigen::Vector3d offset = step.x.segment<3>(at.end(l)) - com;
@@ -34,13 +35,13 @@ inline void write_reach(const StepView& step, int l, const Eigen::Vector3d& com,
     for (int a = 0; a < at.axis_count(); ++a) g[at.angle(a)] += turn[at.axes()[a]];
   };
   for (int i = 0; i < 3; ++i) {
-    if (relative[i] < limit.reach_min[i])
-      write(Eigen::Vector3d::Unit(i), relative[i] - limit.reach_min[i]);
-    else if (relative[i] > limit.reach_max[i])
-      write(Eigen::Vector3d::Unit(i), relative[i] - limit.reach_max[i]);
+    if (relative[i] < limit.reach_min[i] + room)
+      write(Eigen::Vector3d::Unit(i), relative[i] - limit.reach_min[i] - room);
+    else if (relative[i] > limit.reach_max[i] - room)
+      write(Eigen::Vector3d::Unit(i), relative[i] - limit.reach_max[i] + room);
   }
   for (int i = 0; i < limit.cuts; ++i) {
-    const double beyond = limit.cut_A.row(i).dot(relative) - limit.cut_b[i];
+    const double beyond = limit.cut_A.row(i).dot(relative) - limit.cut_b[i] + room;
     if (beyond > 0.0) write(limit.cut_A.row(i).transpose(), beyond);
   }
 }

@@ -79,15 +79,15 @@ void visit_forces(const ForceView& v, const Eigen::Vector3d& com, int& row, Visi
 /// Rows of the reach of an end-effector: both sides of its box by axis, then the faces that cut it.
 inline int reach_rows(const EndLimits& limit) { return 6 + limit.cuts; }
 
-/// Values of these rows from `row` on, which is left behind them.
-inline void reach_values(const BodyPose& pose, const Eigen::Vector3d& end, const EndLimits& limit, int& row,
-                         Eigen::ArrayXd& r) {
+/// Values of these rows, planned so far inside, from `row` on, which is left behind them.
+inline void reach_values(const BodyPose& pose, const Eigen::Vector3d& end, const EndLimits& limit, double room,
+                         int& row, Eigen::ArrayXd& r) {
   const Eigen::Vector3d place = pose.rotation.transpose() * (end - pose.com);
   for (int i = 0; i < 3; ++i) {
-    r[row++] = place[i] - limit.reach_max[i];
-    r[row++] = limit.reach_min[i] - place[i];
+    r[row++] = place[i] - limit.reach_max[i] + room;
+    r[row++] = limit.reach_min[i] - place[i] + room;
   }
-  for (int i = 0; i < limit.cuts; ++i) r[row++] = limit.cut_A.row(i).dot(place) - limit.cut_b[i];
+  for (int i = 0; i < limit.cuts; ++i) r[row++] = limit.cut_A.row(i).dot(place) - limit.cut_b[i] + room;
 }
 
 }  // namespace mcplan::ddp::polish

@@ -161,7 +161,7 @@ void Limits::values(const Motion& motion, RowArray& r) const {
     }
     if (int row = of.reach; row >= 0)
       for (int l = 0; l < at.end_effector_count(); ++l)
-        reach_values(motion.knot(k), t.x[k].segment<3>(at.end(l)), problem.limits[l], row, r);
+        reach_values(motion.knot(k), t.x[k].segment<3>(at.end(l)), problem.limits[l], 0.0, row, r);
     if (k == fixed_->steps()) break;
     for (std::size_t c = 0; c < of.contacts.size(); ++c) {
       const Standing& s = fixed_->phase(k).standing[c];
@@ -175,7 +175,8 @@ void Limits::values(const Motion& motion, RowArray& r) const {
           box(row, t.sole_yaw[k][s.l] - pose.rpy[2], problem.limits[s.l].yaw_min, problem.limits[s.l].yaw_max);
           row += 2;
         }
-        if (i > 0 && i + 1 < motion.instants()) reach_values(pose, end, problem.limits[s.l], row, r);
+        if (i > 0 && i + 1 < motion.instants())
+          reach_values(pose, end, problem.limits[s.l], problem.reach_room, row, r);
       }
     }
   }
@@ -193,13 +194,14 @@ void Limits::relax_from(const Motion& motion) {
 void Limits::relax(const Motion& motion) {
   StartSlack& slack = start_slack_;
   slack.set_times(*fixed_, motion.trajectory);
-  const auto relax_reach = [&](int l, double t, int& row) {
-    for (int i = 0; i < reach_rows(fixed_->problem().limits[l]); ++i) slack_[row++] = slack.reach(l, i, t);
+  const auto relax_reach = [&](int l, double t, double room, int& row) {
+    for (int i = 0; i < reach_rows(fixed_->problem().limits[l]); ++i) slack_[row++] = slack.reach(l, i, t, room);
   };
   for (int k = 0; k <= fixed_->steps(); ++k) {
     const OfPhase& of = phases_[k];
     if (int row = of.reach; row >= 0)
-      for (int l = 0; l < fixed_->problem().layout.end_effector_count(); ++l) relax_reach(l, slack.knot_time(k), row);
+      for (int l = 0; l < fixed_->problem().layout.end_effector_count(); ++l)
+        relax_reach(l, slack.knot_time(k), 0.0, row);
     if (k == fixed_->steps()) break;
     const double h = slack.knot_time(k + 1) - slack.knot_time(k);
     for (std::size_t c = 0; c < of.contacts.size(); ++c) {
@@ -213,7 +215,7 @@ void Limits::relax(const Motion& motion) {
           slack_[row + 1] = slack.yaw(l, false, t);
           row += 2;
         }
-        if (i > 0 && i + 1 < motion.instants()) relax_reach(l, t, row);
+        if (i > 0 && i + 1 < motion.instants()) relax_reach(l, t, fixed_->problem().reach_room, row);
       }
     }
   }

@@ -41,7 +41,7 @@ StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
         {Row{yaw - limit.yaw_max, std::max(-spin.z(), 0.0)}, Row{limit.yaw_min - yaw, std::max(spin.z(), 0.0)}});
   }
   // Any row that may be beyond its bound before the slack is used up.
-  const auto beyond = [&](const Row& row) { return row.value + row.rate * horizon_ > 0.0; };
+  const auto beyond = [&](const Row& row) { return row.value + row.rate * horizon_ > -problem.reach_room; };
   for (const auto& rows : reach_) any_ = any_ || std::any_of(rows.begin(), rows.end(), beyond);
   for (const auto& rows : yaw_) any_ = any_ || std::any_of(rows.begin(), rows.end(), beyond);
 }

@@ -29,8 +29,11 @@ class StartSlack {
 
   bool any() const { return any_; }
 
-  /// Amount by which one of the reach_rows() of an end-effector is relaxed at time t, and a side of its range of yaw.
-  double reach(int l, int row, double t) const { return amount(reach_[l][row], t); }
+  /// Amount by which one of the reach_rows() of an end-effector, planned so far inside, is relaxed at time t, and a
+  /// side of its range of yaw.
+  double reach(int l, int row, double t, double room) const {
+    return amount({reach_[l][row].value + room, reach_[l][row].rate}, t);
+  }
   double yaw(int l, bool upper, double t) const { return amount(yaw_[l][upper ? 0 : 1], t); }
 
   double knot_time(int k) const { return times_[k]; }

@@ -87,10 +87,7 @@ class Steps {
     const Knot& start = rest.plan.knots.front();
     pendulum_ = {start.com_W.head<2>(), start.com_velocity_W.head<2>(),
                  std::sqrt(now.scene->gravity / robot.com_height)};
-    rest_.plan.phases.resize(1);
-    rest_.plan.knots.resize(2);
-    rest_.planned = {0};
-    rest_.kept = 0;
+    rest_.keep_first();
     rest_.free_end = true;
     rest_.shortest_s = kShorter * phase_duration_of(robot, now.similarity)[0];
     rest_.plan.final_contacts = rest.contacts(0);

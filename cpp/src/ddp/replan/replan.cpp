@@ -139,7 +139,9 @@ void go_to_goal(Rest& rest, Now& now, Trials& trials) {
     if (leads_on && !gone && !trials.solved()) recover(begun, now, trials);
   }
   if (!leads_on && !trials.best()) as_planned_or_with_a_hand(rest, now, trials);
-  if (!others || (trials.best() && hopeless(*trials.best()))) return;
+  if (!others || (!is_pushed(now) && trials.acceptable() && trials.usable()) ||
+      (trials.best() && hopeless(*trials.best())))
+    return;
   for (const Rest& other : other_steps(rest, *now.robot, now.similarity)) {
     if (trials.done()) return;
     trials.make(now, other, PlanFrom::other_sequence);

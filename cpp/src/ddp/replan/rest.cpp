@@ -69,8 +69,20 @@ void Rest::insert(int k, const ContactState& contacts, double duration_s) {
   plan.phases.insert(plan.phases.begin() + k, phase);
   const Knot knot = plan.knots[k];
   plan.knots.insert(plan.knots.begin() + k, knot);
+  if (!desired.empty()) {
+    const Knot same = desired[k];
+    desired.insert(desired.begin() + k, same);
+  }
   planned.insert(planned.begin() + k, 0);
   share_weight(k);
+}
+
+void Rest::keep_first() {
+  plan.phases.resize(1);
+  plan.knots.resize(2);
+  planned = {0};
+  kept = 0;
+  desired.clear();
 }
 
 void Rest::share_weight(int k) {
@@ -92,6 +104,7 @@ void Rest::drop(int count) {
   plan.phases.erase(plan.phases.begin(), plan.phases.begin() + count);
   plan.knots.erase(plan.knots.begin(), plan.knots.begin() + count);
   planned.erase(planned.begin(), planned.begin() + count);
+  if (!desired.empty()) desired.erase(desired.begin(), desired.begin() + count);
   plan.knots.front() = now;
 }
 

@@ -16,7 +16,7 @@ struct Rest {
   Plan plan;
   std::vector<char> planned;  ///< by phase: it was planned before, so that where contacts begin in it was chosen
   int kept = std::numeric_limits<int>::max();  ///< what is planned up to this phase keeps its footholds
-  std::vector<Knot> desired;                   ///< what the motion is to stay near; empty: what was planned
+  std::vector<Knot> desired;                   ///< by knot: what the motion is to stay near; empty: what was planned
 
   bool free_end = false;    ///< it ends at rest, wherever that is
   double shortest_s = 0.0;  ///< phases may be as short; 0: as the robot's
@@ -41,6 +41,9 @@ struct Rest {
 
   /// Share the weight among the contacts of a phase, with forces that act at the end-effectors and point at the CoM.
   void share_weight(int k);
+
+  /// Leave the phase under way alone, of which nothing is kept: steps are put together after it anew.
+  void keep_first();
 
   /// Take the first `count` phases away; what comes after begins at the measured state.
   void drop(int count);

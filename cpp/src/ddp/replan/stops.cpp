@@ -54,10 +54,7 @@ std::vector<Landing> landings_of(const Rest& rest, const Scene& scene, const Rob
 /// The phase under way alone, at the end of which nothing changes.
 Rest under_way(const Rest& rest) {
   Rest out = rest;
-  out.plan.phases.resize(1);
-  out.plan.knots.resize(2);
-  out.planned = {0};
-  out.kept = 0;
+  out.keep_first();
   Knot& end = out.plan.knots.back();
   end.com_velocity_W.setZero();
   end.base_rpy_rate.setZero();

@@ -17,8 +17,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The problem of a sequence from the measured state, inside of its limits by what was `missed` of them.
-Problem pose(const Now& now, const Rest& rest, Tuning& tuning, const std::vector<Violation>& missed) {
+/// Instants are so many times farther apart where a plan is looked at for the first time. Chosen.
+constexpr double kCoarser = 5.0;
+
+/// The problem of a sequence from the measured state, inside of its limits by what was missed of them before.
+Problem pose(const Now& now, const Rest& rest, Tuning& tuning, const Again* again) {
   Options with = now.options->search;
   with.phases = rest.size();
   with.initial_sequence.clear();
@@ -30,7 +33,7 @@ Problem pose(const Now& now, const Rest& rest, Tuning& tuning, const std::vector
   if (rest.shortest_s > 0.0) with.duration_min_s = rest.shortest_s;
   Problem problem(part_of(*now.scene, now.surfaces), *now.robot, with);
   tuning = problem.tuning();
-  tighten(problem, tuning, missed);
+  if (again) tighten_between_knots(problem, tuning, again->missed, again->from);
   ContactState contacts;
   for (int e : problem.active) {
     const int surface = now.measured.contacts[e];
@@ -88,12 +91,27 @@ double two_steps_s(const Plan& plan) {
   return times.back();
 }
 
-/// The checker's word on a plan until then.
-CheckResult look(const Plan& plan, const Now& now, double until_s, const StopRequest& stop) {
+/// The checker's word on a plan until then, looked at so many times less often than for a verdict.
+CheckResult look(const Plan& plan, const Now& now, double until_s, const StopRequest& stop, double coarser = 1.0) {
   Tolerances tolerances;
   if (!now.options->search.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
-  tolerances.sample_s = std::max(tolerances.sample_s, plan.duration() / kFullInstantsMax);
+  tolerances.sample_s = coarser * std::max(tolerances.sample_s, plan.duration() / kFullInstantsMax);
   return check(plan, plan.scene, *now.robot, tolerances, stop, until_s);
+}
+
+/// The checker's word on all of it. What is seen to exceed limits already at few instants is not looked at closely:
+/// that is most of what is tried where little helps, and a close look takes as long as some iterations.
+void look_at_all(Trial& trial, const Now& now, const StopRequest& stop) {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  CheckResult few = look(trial.plan, now, kAll, stop, kCoarser);
+  if (!few.complete) return;
+  trial.coarse = !few.ok();
+  if (!trial.coarse) {
+    CheckResult close = look(trial.plan, now, kAll, stop);
+    if (close.complete) trial.check = std::move(close);
+    return;
+  }
+  trial.check = std::move(few);
 }
 
 /// The goal is where the plan ends.
@@ -115,7 +133,7 @@ double finishing_s(const Problem& problem) { return 1e-3 * kFinishing_ms * probl
 
 std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, int iterations, const Again* again) {
   Tuning tuning;
-  Problem problem = pose(now, rest, tuning, again ? again->missed : std::vector<Violation>());
+  Problem problem = pose(now, rest, tuning, again);
   Incumbent at = from_plan(problem, rest.plan, 0);
   if (!problem.rules.valid(at.sequence)) return std::nullopt;
   at.trajectory.x.front() = problem.start;
@@ -152,11 +170,8 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   if (rest.free_end) end_there(trial.plan);
   if (now.given_robot) trial.plan.robot = *now.given_robot;
   // In time or not, the next two steps are looked at; a limit leaves the rest of them to the next call.
-  trial.check = look(trial.plan, now, late ? two_steps_s(trial.plan) : std::numeric_limits<double>::infinity(), {});
-  if (late && trial.check.ok() && !late()) {
-    CheckResult whole = look(trial.plan, now, std::numeric_limits<double>::infinity(), late);
-    if (whole.complete) trial.check = std::move(whole);
-  }
+  if (late) trial.check = look(trial.plan, now, two_steps_s(trial.plan), {});
+  if (!late || !late()) look_at_all(trial, now, late);
   return trial;
 }
 
@@ -170,6 +185,18 @@ Trial as_planned(const Rest& planned, const Now& now) {
   trial.check = look(trial.plan, now, two_steps_s(trial.plan), {});
   trial.planned = true;
   return trial;
+}
+
+void look_closely(Trial& trial, const Now& now) {
+  if (!trial.coarse) return;
+  const StopRequest late =
+      now.deadline->limited() ? StopRequest([&] { return now.deadline->passed(); }) : StopRequest();
+  CheckResult close = look(trial.plan, now, std::numeric_limits<double>::infinity(), late);
+  if (close.complete)
+    trial.check = std::move(close);
+  else  // a limit may be exceeded between the instants that have been looked at
+    trial.check.kept_until_s = std::max(0.0, trial.check.kept_until_s - kCoarser * Tolerances().sample_s);
+  trial.coarse = false;
 }
 
 bool can_be_followed(const Trial& trial) {

@@ -32,6 +32,7 @@ struct Trial {
   Evaluation evaluation;
   bool exact = false;    ///< the dynamics hold to rounding
   bool planned = false;  ///< nothing was solved: what was planned
+  bool coarse = false;   ///< looked at in few instants, which was enough to see that it exceeds limits
   Ending ending = Ending::done;
   int work = 0;  ///< iterations times phases
   /// The checker has seen all of it and accepts it.
@@ -49,6 +50,9 @@ struct Again {
 /// the scene's rules do not allow it. With `again`, from a plan that was found so.
 std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, int iterations,
                              const Again* again = nullptr);
+
+/// Have the checker look at all instants of a plan that has been looked at in few, if there is time.
+void look_closely(Trial& trial, const Now& now);
 
 /// Whether rows for the limits of joints may mend what is wrong with it. (Those of speed do not: what a start
 /// violates.)

@@ -53,6 +53,12 @@ std::string message_of(const Trial& best, const Report& report) {
 
 bool Trials::done() const { return solved() || too_late() || (best_ && iterations_left(best_->plan) < kWorthwhile); }
 
+bool Trials::acceptable() const {
+  if (!best_) return false;
+  const Status status = status_of(*best_);
+  return status == Status::solved || status == Status::acceptable;
+}
+
 void Trials::make(const Now& now, const Rest& rest, PlanFrom from, bool apart) {
   const double begin_s = now_->deadline->elapsed_s();
   std::optional<Trial> trial = attempt(now, rest, apart, nullptr);
@@ -112,6 +118,7 @@ void conclude(Trials& trials, Report& report, PlanResult& out) {
     report.message = "the scene's rules allow no sequence that goes on from the measured contacts";
     return;
   }
+  look_closely(*best, trials.now());
   report.status = status_of(*best);
   report.worst_violation = best->check.worst();
   report.start_violations = best->check.start;

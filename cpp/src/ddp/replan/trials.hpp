@@ -49,6 +49,7 @@ class Trials {
   void take_sound_only(bool only) { sound_only_ = only; }
 
   std::optional<Trial>& best() { return best_; }
+  const Now& now() const { return *now_; }
 
   /// Whether nothing more may be begun.
   bool out_of_time() const { return now_->deadline->passed() || interrupted(best_) || interrupted(spare_.trial); }
@@ -59,6 +60,9 @@ class Trials {
   }
 
   bool solved() const { return best_ && best_->ok(); }
+
+  /// Whether the best one misses limits by so little, or by nothing, that a controller may follow it to its end.
+  bool acceptable() const;
 
   /// Whether a controller may follow the best one for the next two steps.
   bool usable() const { return best_ && (best_->ok() || can_be_followed(*best_)); }

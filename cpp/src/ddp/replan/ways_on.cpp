@@ -93,10 +93,7 @@ class RestOfSteps {
   /// The phase under way alone.
   void begin() {
     out_ = *from_;
-    out_.plan.phases.resize(1);
-    out_.plan.knots.resize(2);
-    out_.planned = {0};
-    out_.kept = 0;
+    out_.keep_first();
     out_.plan.final_contacts = from_->contacts(0);
     out_.plan.knots.back() = out_.plan.knots.front();
     for (Vector3d& velocity_W : out_.plan.knots.back().end_effector_velocities_W) velocity_W.setZero();

@@ -90,3 +90,20 @@ TEST_CASE("rows along a step and as a quadratic are those of differences") {
       CHECK((out.matrix() - along).lpNorm<Eigen::Infinity>() < 1e-6 * (1.0 + along.lpNorm<Eigen::Infinity>()));
     }
 }
+
+TEST_CASE(
+    "contacts keep inside of their reach between the knots by what is asked for, and at the knots they need not") {
+  Rowed m(scenes::flat(), phases(8), 31);
+  polish::RowArray before, after;
+  m.limits.values(m.motion, before);
+  m.problem.reach_room = 0.01;
+  m.limits.values(m.motion, after);
+  int between = 0;
+  for (int k = 0; k < m.fixed.steps(); ++k)
+    for (const polish::Standing& standing : m.fixed.phase(k).standing)
+      between += m.problem.options.interior_points * polish::reach_rows(m.problem.limits[standing.l]);
+  const polish::RowArray grown = after - before;
+  CHECK((grown > 0.005).count() == between);
+  CHECK(grown.maxCoeff() == doctest::Approx(0.01));
+  CHECK(grown.sum() == doctest::Approx(0.01 * between));
+}

@@ -52,8 +52,10 @@ TEST_CASE("the slack of a start is what its state violates as it moves on straig
         const double fade = std::max(0.0, 1.0 - t * t / (horizon * horizon));
         const double below = p.limits[l].reach_min.y() - place + std::max(v, 0.0) * t;
         const double above = place - p.limits[l].reach_max.y() + std::max(-v, 0.0) * t;
-        CHECK(slack.reach(l, 3, t) == doctest::Approx(std::max(below, 0.0) * fade));
-        CHECK(slack.reach(l, 2, t) == doctest::Approx(std::max(above, 0.0) * fade));
+        for (const double room : {0.0, 0.02}) {
+          CHECK(slack.reach(l, 3, t, room) == doctest::Approx(std::max(below + room, 0.0) * fade));
+          CHECK(slack.reach(l, 2, t, room) == doctest::Approx(std::max(above + room, 0.0) * fade));
+        }
       }
   }
 }

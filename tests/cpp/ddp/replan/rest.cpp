@@ -53,6 +53,29 @@ TEST_CASE("the rest of a plan moves as the plan does") {
   }
 }
 
+TEST_CASE("what is desired goes with the phases that are put in, dropped or left alone") {
+  Rest rest = rest_of(walk(), 1.0);
+  rest.desired = rest.plan.knots;
+  for (Knot& knot : rest.desired) knot.com_W.x() += 1.0;
+  const auto goes_along = [&] {
+    REQUIRE(rest.desired.size() == rest.plan.knots.size());
+    for (std::size_t k = 1; k < rest.desired.size(); ++k)
+      CHECK((rest.desired[k].com_W - rest.plan.knots[k].com_W).isApprox(Vector3d::UnitX(), 1e-12));
+  };
+  for (const int k : {0, 3, rest.size()}) {
+    rest.insert(k, rest.contacts(k), 0.3);
+    goes_along();
+  }
+  rest.drop(2);
+  goes_along();
+  rest.keep_first();
+  CHECK(rest.desired.empty());
+  CHECK(rest.size() == 1);
+  CHECK(rest.plan.knots.size() == 2);
+  rest.insert(1, rest.contacts(1), 0.3);
+  CHECK(rest.desired.empty());
+}
+
 TEST_CASE("with the planned contacts the rest stays as it is, from the measured state on") {
   Measured measured = planned_at(1.0);
   measured.state.com_W += Vector3d(0.01, 0.0, 0.0);
