@@ -211,10 +211,12 @@ class Planner:
                 usable = follows(result.report, self.period_s)
                 if found is None or (usable and not follows(found.report, self.period_s)):
                     found = result
-                # One that keeps all limits for a while only, or that stops, is second to one that leads on to the end
-                # within wider limits.
-                stops = result.report.plan_from == PlanFrom.stop
-                if usable and result.report.status != Status.infeasible and not stops:
+                # One that keeps all limits for a while only, that stops, or that does not quite catch the robot is second
+                # to one that leads on to the end within wider limits.
+                second = result.report.plan_from == PlanFrom.stop or (
+                    result.report.plan_from == PlanFrom.recovery and result.report.status != Status.solved
+                )
+                if usable and result.report.status != Status.infeasible and not second:
                     found = result
                     break
             if found is None:
