@@ -42,10 +42,11 @@ PlanResult first_usable(const Question& question) {
     PlanResult result = ddp::replan(*question.plan, t, question.state.measured, scene, robot, options);
     options.crossing = true;  // those after the first are for emergencies
     const bool usable = follows(result.report, question.options.period_s);
-    // One that keeps all limits for a while only, or that stops, is second to one that leads on to the end within wider
-    // limits.
-    const bool stops = result.report.plan_from == PlanFrom::stop;
-    const bool settled = usable && result.report.status != Status::infeasible && !stops;
+    // One that keeps all limits for a while only, that stops, or that does not quite catch the robot is second to one
+    // that leads on to the end within wider limits.
+    const bool second = result.report.plan_from == PlanFrom::stop ||
+                        (result.report.plan_from == PlanFrom::recovery && result.report.status != Status::solved);
+    const bool settled = usable && result.report.status != Status::infeasible && !second;
     const bool first = !found || (usable && !follows(found->report, question.options.period_s));
     if (settled || first) found = std::move(result);
     if (settled) break;
