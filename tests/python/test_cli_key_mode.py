@@ -14,8 +14,9 @@ termios = pytest.importorskip("termios")
 from mcplan.cli.key_mode import KeyMode  # noqa: E402
 
 PROGRAM = """
-import sys, time
+import signal, time
 from mcplan.cli.key_mode import KeyMode
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # nohup ignores it
 KeyMode(0).begin()
 print("begun", flush=True)
 time.sleep(60)
@@ -28,6 +29,12 @@ def local_modes(descriptor: int) -> int:
 
 def reads_keys(descriptor: int) -> bool:
     return not local_modes(descriptor) & (termios.ICANON | termios.ECHO)
+
+
+def started(terminal: int) -> subprocess.Popen:
+    """The program on a terminal, in a group of processes that can be stopped: its parent is in another one."""
+    words = [sys.executable, "-c", PROGRAM]
+    return subprocess.Popen(words, stdin=terminal, stdout=subprocess.PIPE, preexec_fn=lambda: os.setpgid(0, 0))
 
 
 def test_keys_come_at_once_until_the_end_and_signals_are_left_as_they_were():
@@ -52,7 +59,7 @@ def test_keys_come_at_once_until_the_end_and_signals_are_left_as_they_were():
 def test_a_signal_that_ends_the_process_leaves_the_terminal_usable(number):
     ours, theirs = pty.openpty()
     usual = local_modes(theirs)
-    with subprocess.Popen([sys.executable, "-c", PROGRAM], stdin=theirs, stdout=subprocess.PIPE) as process:
+    with started(theirs) as process:
         assert process.stdout.readline() == b"begun\n"
         assert reads_keys(theirs)
         process.send_signal(number)
@@ -65,7 +72,7 @@ def test_a_signal_that_ends_the_process_leaves_the_terminal_usable(number):
 def test_a_process_that_is_stopped_gives_the_terminal_back_and_takes_it_again():
     ours, theirs = pty.openpty()
     usual = local_modes(theirs)
-    with subprocess.Popen([sys.executable, "-c", PROGRAM], stdin=theirs, stdout=subprocess.PIPE) as process:
+    with started(theirs) as process:
         assert process.stdout.readline() == b"begun\n"
         os.kill(process.pid, signal.SIGTSTP)
         _, status = os.waitpid(process.pid, os.WUNTRACED)
