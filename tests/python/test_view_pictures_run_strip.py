@@ -10,7 +10,7 @@ from mcplan.view import save_run_postures, save_run_strip
 from mcplan.view.figure import Figure, Part
 from mcplan.view.pictures.rendering import Eye
 from mcplan.view.pictures.run_scene import RunScene
-from mcplan.view.pictures.run_strip import fitted, framed
+from mcplan.view.pictures.run_strip import _with_pushes, fitted, framed
 from mcplan.view.shapes import box
 from test_view_pictures_rendering import pixel_of
 
@@ -62,6 +62,22 @@ def test_a_strip_has_a_robot_in_every_frame_and_they_differ(recording, tmp_path)
         assert one[60:200].min(axis=2).min() < 60  # Talos' legs are black
         assert one[: high // 20].std() < 15  # nothing above its head
     assert np.abs(cells[0] - cells[1]).mean() > 2 and np.abs(cells[1] - cells[2]).mean() > 2
+
+
+def test_every_push_has_an_instant_of_its_own_and_the_run_its_ends():
+    class Run:
+        options = mp.tracking.Options(
+            pushes=(
+                mp.tracking.Push(100.0, 0.2, 1.75),
+                mp.tracking.Push(100.0, 0.2, 3.0),
+                mp.tracking.Push(1.0, 0.2, 9.9),
+            )
+        )
+
+    even = np.linspace(0.0, 10.0, 6)
+    np.testing.assert_allclose(_with_pushes(even, Run()), [0.0, 1.85, 3.1, 6.0, 8.0, 10.0])
+    np.testing.assert_allclose(_with_pushes(even, object()), even)
+    np.testing.assert_allclose(_with_pushes(even[:2], Run()), even[:2])
 
 
 def test_postures_stand_side_by_side_in_one_scene(recording, tmp_path):

@@ -24,6 +24,21 @@ def test_frames_are_the_instants_nearest_to_even_ones(step, rate):
         assert np.abs(times[chosen] - wanted).max() <= 0.5 * step + 1e-9
 
 
+def test_a_run_of_one_instant_has_one_frame_at_rest():
+    recording = recordings.walking()
+    one = dataclasses.replace(
+        recording,
+        **{
+            item.name: value[:1]
+            for item in dataclasses.fields(recording)
+            if isinstance(value := getattr(recording, item.name), np.ndarray) and len(value) == len(recording.times_s)
+        },
+    )
+    frames = frames_of(one, load_model(recording.simulated_robot), 30.0)
+    assert frames.samples.count == 1
+    assert not frames.samples.com_velocity_W.any() and not frames.samples.velocities_W.any()
+
+
 def test_stretches_are_all_of_the_true_and_nothing_else():
     active = np.random.default_rng(3).random(200) < 0.6
     again = np.zeros_like(active)
