@@ -43,6 +43,9 @@ def test_feet_are_lifted_higher_over_ground_that_is_felt_elsewhere(scene):
     talos = mp.load_robot("talos")
     assert lifting(talos, 0.0) is talos
     assert lifting(talos, 0.03).swing_height == pytest.approx(talos.swing_height + 0.03)
+    small = talos.__copy__()
+    small.com_height = 0.2
+    assert lifting(small, 0.01).swing_height == pytest.approx(0.06)
     assert lifting(talos, 1.0).swing_height == pytest.approx(talos.swing_height + HIGHER_MAX_M)
 
 

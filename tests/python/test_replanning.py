@@ -415,6 +415,23 @@ def test_steps_that_do_not_catch_a_push_hide_nothing_that_does(ratio):
     assert result.report.status == mp.Status.solved and mp.check(result.plan).ok
 
 
+def test_a_limit_of_time_that_does_not_strike_changes_no_replan(flat):
+    """Pushes that the plan's own sequence catches, that it misses by little, and that nothing catches."""
+    statuses = set()
+    for free, push in ((0, 0.0), (1, 0.15), (1, 0.5), (0, 0.7), (1, 1.0), (0, 3.0)):
+        t = time_of_phase(flat, free)
+        found = []
+        for limit in ({}, {"time_limit": 1e4}):
+            knot, contacts = state_at(flat, t)
+            knot.com_velocity_W = knot.com_velocity_W + [0.3 * push, push, 0.0]
+            result = mp.replan(flat, t, knot, contacts=contacts, recovery_first=True, crossing=True, **limit)
+            report = result.report
+            found.append((report.status, report.plan_from, report.kept_until_s, result.plan.knots, result.plan.phases))
+        assert found[0] == found[1], push
+        statuses.add(found[0][0])
+    assert {mp.Status.solved, mp.Status.infeasible} <= statuses
+
+
 def test_without_work_for_them_no_other_sequences_are_tried(flat):
     t = time_of_phase(flat, 0)
     knot, contacts = state_at(flat, t)

@@ -71,10 +71,8 @@ class KnownGround:
 
     def unevenness_m(self) -> float:
         """How far surfaces have been felt to lie higher or lower than they were known to, at most [m]."""
-        known = self.scene.surfaces
-        felt = zip(known, self._known.surfaces, strict=True)
-        shifts = [np.ptp(np.asarray([a.vertices_W[0], b.vertices_W[0]])[:, 2]) for a, b in felt]
-        return float(max(shifts, default=0.0))
+        pairs = zip(self.scene.surfaces, self._known.surfaces, strict=True)
+        return max((abs(float(felt.vertices_W[0][2] - known.vertices_W[0][2])) for felt, known in pairs), default=0.0)
 
     def feel_slips(
         self, surfaces: Sequence[int], forces_W: Sequence[Array], velocities_W: Sequence[Array]

@@ -18,6 +18,8 @@ BESIDE_M = 0.02
 
 #: Feet are lifted higher by this ratio of how far surfaces lie from where they were known to, by so much at most [m].
 HIGHER_RATIO, HIGHER_MAX_M = 1.0, 0.05
+#: A usual swing is no higher than this ratio of the CoM's height: of small robots that leave theirs open it is less.
+USUAL_RATIO = 0.25
 
 
 def lifting(robot: Robot, unevenness_m: float) -> Robot:
@@ -29,7 +31,8 @@ def lifting(robot: Robot, unevenness_m: float) -> Robot:
     if unevenness_m <= 0.0:
         return robot
     higher = robot.__copy__()
-    higher.swing_height = robot.swing_height + min(HIGHER_RATIO * unevenness_m, HIGHER_MAX_M)
+    usual_m = min(robot.swing_height, USUAL_RATIO * robot.com_height)
+    higher.swing_height = usual_m + min(HIGHER_RATIO * unevenness_m, HIGHER_MAX_M)
     return higher
 
 
