@@ -388,16 +388,16 @@ def test_what_only_a_step_across_the_standing_foot_catches_is_caught_by_one():
     assert outward * apart[1] > 0.0 and abs(apart[0]) > sum(lengths)  # across, one sole behind the other
 
 
-@pytest.mark.parametrize("ratio", [0.25, 0.75])
+@pytest.mark.parametrize("ratio", [0.5, 0.75])
 def test_steps_that_do_not_catch_a_push_hide_nothing_that_does(ratio):
-    """0.35 m/s outward, early and late in a swing of TALOS: none of three recoveries is solved, other ways are."""
+    """0.3 m/s outward and 0.2 m/s ahead in a swing of TALOS: no recovery is solved, other ways are."""
     from mcplan.online.reach import widened
 
     plan = mp.plan("flat", "talos").plan
     t = time_of_phase(plan, 1, ratio)
     knot, contacts = state_at(plan, t)
     outward = math.copysign(1.0, plan.robot.end_effectors[0 if contacts[0] >= 0 else 1].nominal_B[1])
-    knot.com_velocity_W = knot.com_velocity_W + [0.0, 0.35 * outward, 0.0]
+    knot.com_velocity_W = knot.com_velocity_W + [0.2, 0.3 * outward, 0.0]
     lines: list[str] = []
     result = mp.replan(
         plan,

@@ -7,6 +7,7 @@
 
 #include "ddp/constants.hpp"
 #include "ddp/problem_layout.hpp"
+#include "ddp/virtual_leg.hpp"
 #include "mcplan/base/error.hpp"
 #include "plan/clearance.hpp"
 #include "surface_boxes.hpp"
@@ -192,6 +193,10 @@ EndLimits Problem::limits_of(const EndEffector& end) const {
   l.limb = end.limb;
   for (Vector3d* length : {&l.limb.hip_B, &l.limb.ankle}) *length /= units.length;
   for (double* length : {&l.limb.upper, &l.limb.lower, &l.limb.margin}) *length /= units.length;
+  if (l.limb.given()) {
+    const double longest = VirtualLeg::max_length({l.limb.upper, l.limb.lower}) - l.limb.margin;
+    l.leg_max = longest - margin.x() / units.length;
+  }
   l.limb.knee_torque /= units.moment();
   l.limb.hip_torque /= units.moment();
   l.limb.ankle_torque /= units.moment();

@@ -63,6 +63,7 @@ struct EndLimits {
   Eigen::Vector3d moment_max;
   double yaw_min = 0.0, yaw_max = 0.0;  ///< [rad] of the sole against the base
   LimbLimits limb;                      ///< none where the options do without
+  double leg_max = 0.0;                 ///< from hip to ankle, where there are limb limits
   bool balances = false;                ///< a point foot on which a robot that is tracked keeps its balance
 };
 

@@ -25,7 +25,7 @@ Vector3d goal_of(const Problem& problem, int l) { return problem.reference.x.bac
 }  // namespace
 
 Limits::Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tuning& tuning)
-    : fixed_(&fixed), pendulum_(&pendulum), tuning_(tuning), phases_(fixed.steps() + 1) {
+    : fixed_(&fixed), pendulum_(&pendulum), tuning_(tuning), legs_(fixed), phases_(fixed.steps() + 1) {
   const Problem& problem = fixed.problem();
   const int instants = problem.options.interior_points + 2;
   int reaches = 0;
@@ -52,6 +52,7 @@ Limits::Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tunin
       c.first = push(instants * (forces + (c.yaw ? 2 : 0)) + reach_rows(limit) * (instants - 2), tuning.limit_weight);
       of.contacts.push_back(c);
     }
+    of.legs = push(static_cast<int>(legs_.rows(k).size()), tuning.limit_weight);
   }
   precision_ = Eigen::Map<RowArray>(weights_.data(), static_cast<int>(weights_.size())).square();
 }
@@ -179,13 +180,14 @@ void Limits::values(const Motion& motion, RowArray& r) const {
           reach_values(pose, end, problem.limits[s.l], problem.reach_room, row, r);
       }
     }
+    legs_.values(motion, k, of.legs, r);
   }
   if (slack_.size() > 0) r -= slack_;
 }
 
 void Limits::relax_from(const Motion& motion) {
   slack_.resize(0);
-  start_slack_ = StartSlack(*fixed_, motion);
+  start_slack_ = StartSlack(*fixed_, motion, legs_);
   if (!relaxed()) return;
   slack_.setZero(count());
   relax(motion);
@@ -217,6 +219,11 @@ void Limits::relax(const Motion& motion) {
         }
         if (i > 0 && i + 1 < motion.instants()) relax_reach(l, t, fixed_->problem().reach_room, row);
       }
+    }
+    int row = of.legs;
+    for (const LegLengths::Row& leg : legs_.rows(k)) {
+      const double t = slack.knot_time(k) + h * leg.instant / (motion.instants() - 1);
+      slack_[row++] = slack.leg(fixed_->phase(k).standing[leg.contact].l, t, legs_.room(leg));
     }
   }
 }

@@ -290,6 +290,7 @@ void Limits::add(const Motion& motion, int k, const RowArray& y, const RowArray&
     model.g[phase.moving[a]] += beside_[a];
     for (int b = 0; b < columns; ++b) model.h(phase.moving[b], phase.moving[a]) += half_(b, a) + half_(a, b);
   }
+  legs_.add(motion, k, lifted, phases_[k].legs, y, d, model);
 }
 
 /// The rows of an end-effector's reach, where CoM and angles move so.
@@ -361,6 +362,7 @@ void Limits::along(const Motion& motion, const std::vector<VectorXd>& dz, RowArr
     carried_.head<6>() = moved;
     carried_.tail(6 * (motion.instants() - 1)).noalias() = of.lifted * step_;
     for (std::size_t c = 0; c < phase.standing.size(); ++c) contact_along(motion, k, c, dz[k], out);
+    legs_.along(k, dz[k], of.legs, out);
   }
 }
 

@@ -8,7 +8,10 @@ namespace mcplan::ddp::polish {
 
 using Eigen::Vector3d;
 
-StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
+/// Where there is no limit, nothing is ever beyond it.
+constexpr double kNoSlack = 1e3;
+
+StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion, const LegLengths& legs) {
   const Problem& problem = fixed.problem();
   horizon_ = problem.start_slack;
   if (!(horizon_ > 0.0)) return;
@@ -35,6 +38,11 @@ StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
     }
     for (int i = 0; i < limit.cuts; ++i)
       rows.push_back({limit.cut_A.row(i).dot(place) - limit.cut_b[i], std::max(limit.cut_A.row(i).dot(rate), 0.0)});
+    Row& leg = leg_.emplace_back(Row{-kNoSlack, 0.0});
+    if (stands && limit.limb.given()) {
+      const LegLengths::AtStart now = legs.at_start(motion, l, spin);
+      leg = {now.value, std::max(now.rate, 0.0)};
+    }
     // In the air a sole may head anywhere: only contacts have a range.
     const double yaw = stands ? motion.trajectory.sole_yaw.front()[l] - problem.rpy(x).z() : 0.0;
     yaw_.push_back(
@@ -43,6 +51,7 @@ StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
   // Any row that may be beyond its bound before the slack is used up.
   const auto beyond = [&](const Row& row) { return row.value + row.rate * horizon_ > -problem.reach_room; };
   for (const auto& rows : reach_) any_ = any_ || std::any_of(rows.begin(), rows.end(), beyond);
+  any_ = any_ || std::any_of(leg_.begin(), leg_.end(), beyond);
   for (const auto& rows : yaw_) any_ = any_ || std::any_of(rows.begin(), rows.end(), beyond);
 }
 

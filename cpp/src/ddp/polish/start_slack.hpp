@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ddp/polish/fixed_sequence.hpp"
+#include "ddp/polish/leg_lengths.hpp"
 #include "ddp/polish/motion.hpp"
 
 namespace mcplan::ddp::polish {
@@ -22,18 +23,19 @@ class StartSlack {
   StartSlack() = default;
 
   /// Without Problem::start_slack there is none.
-  StartSlack(const FixedSequence& fixed, const Motion& motion);
+  StartSlack(const FixedSequence& fixed, const Motion& motion, const LegLengths& legs);
 
   /// Times from now on.
   void set_times(const FixedSequence& fixed, const Trajectory& trajectory);
 
   bool any() const { return any_; }
 
-  /// Amount by which one of the reach_rows() of an end-effector, planned so far inside, is relaxed at time t, and a
-  /// side of its range of yaw.
+  /// Amount by which one of the reach_rows() of an end-effector, planned so far inside, is relaxed at time t, the
+  /// length of its leg, and a side of its range of yaw.
   double reach(int l, int row, double t, double room) const {
     return amount({reach_[l][row].value + room, reach_[l][row].rate}, t);
   }
+  double leg(int l, double t, double room) const { return amount({leg_[l].value + room, leg_[l].rate}, t); }
   double yaw(int l, bool upper, double t) const { return amount(yaw_[l][upper ? 0 : 1], t); }
 
   double knot_time(int k) const { return times_[k]; }
@@ -47,6 +49,7 @@ class StartSlack {
   double horizon_ = 0.0;
   bool any_ = false;
   std::vector<std::vector<Row>> reach_;
+  std::vector<Row> leg_;
   std::vector<std::array<Row, 2>> yaw_;
   std::vector<double> times_;
 };

@@ -9,10 +9,29 @@ namespace {
 using namespace support;
 using namespace mcplan::ddp;
 
+/// Feet at the end of legs of two links, hips that move with the feet.
+mcplan::Robot with_legs() {
+  mcplan::Robot robot = scenes::humanoid44();
+  for (const char* name : {"right_foot", "left_foot"}) {
+    mcplan::EndEffector& foot = robot.end_effectors[robot.end_effector_index(name)];
+    foot.limb.hip_B = {0.02, 0.8 * foot.nominal_B.y(), -0.05};
+    foot.limb.hip_shift = -0.1;
+    foot.limb.upper = 0.36;
+    foot.limb.lower = 0.34;
+    foot.limb.ankle = {-0.01, 0.005, 0.06};
+    foot.limb.margin = 0.01;
+  }
+  return robot;
+}
+
 /// A shaken motion with a random sequence, and its rows.
 struct Rowed {
   Rowed(const mcplan::Scene& scene, const Options& options, std::uint64_t seed)
-      : problem(scene, seed % 2 ? scenes::humanoid44() : scenes::humanoid44_cut(), options),
+      : problem(scene,
+                seed % 3 == 0   ? with_legs()
+                : seed % 3 == 1 ? scenes::humanoid44()
+                                : scenes::humanoid44_cut(),
+                options),
         random(seed),
         fixed(problem, random_sequence(problem, random)),
         pendulum(problem.layout, problem.inertia, problem.options.stiffness_input, problem.model),

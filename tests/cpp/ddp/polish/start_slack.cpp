@@ -41,7 +41,7 @@ TEST_CASE("the slack of a start is what its state violates as it moves on straig
     motion.trajectory = p.initial_guess(fixed.contacts());
     motion.trajectory.x[0] = p.start;
     REQUIRE(motion.evaluate(pendulum));
-    const polish::StartSlack slack(fixed, motion);
+    const polish::StartSlack slack(fixed, motion, polish::LegLengths(fixed));
     REQUIRE(slack.any());
     for (int l = 0; l < 2; ++l)
       for (const double t : {0.0, 0.3, 0.9, 1.4, 1.6}) {
@@ -70,7 +70,7 @@ TEST_CASE("without slack, or within all limits, rows stay as they are") {
     motion.trajectory = p.initial_guess(fixed.contacts());
     motion.trajectory.x[0] = p.start;
     REQUIRE(motion.evaluate(pendulum));
-    CHECK_FALSE(polish::StartSlack(fixed, motion).any());
+    CHECK_FALSE(polish::StartSlack(fixed, motion, polish::LegLengths(fixed)).any());
   }
 }
 

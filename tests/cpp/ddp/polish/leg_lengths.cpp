@@ -1,0 +1,124 @@
+#include "ddp/polish/leg_lengths.hpp"
+
+#include <doctest/doctest.h>
+
+#include "ddp/polish/interior_point.hpp"
+#include "ddp/stepping_sequence.hpp"
+#include "ddp/support.hpp"
+
+namespace {
+
+using namespace support;
+using Eigen::Vector3d;
+using namespace mcplan::ddp;
+
+/// Feet at the end of legs of two links, of which the CoM's height uses all but so much.
+mcplan::Robot with_legs(double spare, double shift) {
+  mcplan::Robot robot = scenes::humanoid44();
+  for (const char* name : {"right_foot", "left_foot"}) {
+    mcplan::EndEffector& foot = robot.end_effectors[robot.end_effector_index(name)];
+    foot.limb.hip_B = {0.0, foot.nominal_B.y(), -0.05};
+    foot.limb.hip_shift = shift;
+    foot.limb.ankle = {0.01, 0.0, 0.06};
+    const double length = (foot.limb.hip_B - foot.nominal_B - foot.limb.ankle).norm() + spare;
+    foot.limb.upper = foot.limb.lower = 0.5 * length / std::sqrt(1.0 - 0.15 * 0.15);
+  }
+  return robot;
+}
+
+/// A walk on a level floor in given steps, solved.
+struct Walk {
+  explicit Walk(const mcplan::Robot& robot) : problem(scenes::flat(0.5), robot, phases(10)) {
+    sequence = stepping_sequence(problem, 0);
+    trajectory = problem.initial_guess(sequence);
+    polish::InteriorPoint solver(problem, sequence, problem.tuning());
+    polish::Settings settings;
+    settings.max_iterations = 200;
+    outcome = solver.solve(trajectory, settings, nullptr);
+  }
+  Problem problem;
+  ContactSequence sequence;
+  Trajectory trajectory;
+  polish::Outcome outcome;
+};
+
+}  // namespace
+
+TEST_CASE("rows are distances from hip to ankle at instants that nothing else decides on") {
+  for (const double shift : {0.0, -0.12}) {
+    CAPTURE(shift);
+    const Walk walk(with_legs(0.05, shift));
+    const Problem& p = walk.problem;
+    const polish::FixedSequence fixed(p, walk.sequence);
+    const Pendulum pendulum(p.layout, p.inertia, p.options.stiffness_input, p.model);
+    polish::Motion motion(fixed);
+    motion.trajectory = walk.trajectory;
+    REQUIRE(motion.evaluate(pendulum));
+    const polish::LegLengths legs(fixed);
+    int lifts = 0;
+    for (int k = 0; k < fixed.steps(); ++k) {
+      const int count = static_cast<int>(legs.rows(k).size());
+      Eigen::ArrayXd r(count);
+      legs.values(motion, k, 0, r);
+      for (int j = 0; j < count; ++j) {
+        const polish::LegLengths::Row& row = legs.rows(k)[j];
+        const int l = fixed.phase(k).standing[row.contact].l;
+        const mcplan::EndEffector& foot = p.robot.end_effectors[l];
+        const Trajectory& t = walk.trajectory;
+        const double part = static_cast<double>(row.instant) / (motion.instants() - 1);
+        const polish::BodyPose& pose = motion.pose(k, row.instant);
+        Vector3d from_com = foot.limb.hip_B;
+        for (int m = 0; m < 2; ++m) {
+          const Vector3d place = t.x[k].segment<3>(p.layout.end(m)) + part * t.u[k].segment<3>(p.layout.stride(m));
+          from_com += shift * (p.units.length * pose.rotation.transpose() * (place - pose.com) -
+                               p.robot.end_effectors[m].nominal_B);
+        }
+        const double yaw = t.sole_yaw[k][l];
+        const Vector3d& ahead = foot.limb.ankle;
+        const Vector3d ankle(std::cos(yaw) * ahead.x(), std::sin(yaw) * ahead.x(), ahead.z());
+        const Vector3d hip = p.units.length * pose.com + pose.rotation * from_com;
+        const double length = (hip - p.units.length * t.x[k].segment<3>(p.layout.end(l)) - ankle).norm();
+        const double most = 2.0 * foot.limb.upper * std::sqrt(1.0 - 0.15 * 0.15) - p.options.reach_margin_m;
+        CHECK(p.units.length * r[j] == doctest::Approx(length - most).epsilon(1e-9));
+        if (row.instant + 1 == motion.instants()) ++lifts;
+        CHECK((k > 0 || row.instant > 0));
+      }
+    }
+    // The last instant of a contact counts where the foot leaves then, and at the end of the motion.
+    int left = 0;
+    for (int k = 1; k <= fixed.steps(); ++k)
+      for (int l = 0; l < 2; ++l)
+        if (walk.sequence[k - 1][l] != kFree && (k == fixed.steps() || walk.sequence[k][l] != walk.sequence[k - 1][l]))
+          ++left;
+    CHECK(lifts == left);
+  }
+}
+
+TEST_CASE("a walk keeps its legs shorter than their links, which it would not without these rows") {
+  // The reach boxes are the same for all of them; legs with a lot to spare do not decide.
+  const Walk free(with_legs(0.3, -0.1));
+  for (const double spare : {0.01, 0.02}) {
+    CAPTURE(spare);
+    const mcplan::Robot robot = with_legs(spare, -0.1);
+    const Walk held(robot);
+    CHECK(held.outcome == polish::Outcome::converged);
+    const auto longest = [&](const Trajectory& t) {
+      const polish::FixedSequence fixed(held.problem, held.sequence);
+      const Pendulum pendulum(held.problem.layout, held.problem.inertia, held.problem.options.stiffness_input,
+                              held.problem.model);
+      polish::Motion motion(fixed);
+      motion.trajectory = t;
+      REQUIRE(motion.evaluate(pendulum));
+      const polish::LegLengths legs(fixed);
+      double most = -1.0;
+      for (int k = 0; k < fixed.steps(); ++k) {
+        Eigen::ArrayXd r(static_cast<int>(legs.rows(k).size()));
+        legs.values(motion, k, 0, r);
+        most = std::max(most, r.maxCoeff());
+      }
+      return most * held.problem.units.length;
+    };
+    CHECK(longest(free.trajectory) > 5e-3);
+    CHECK(longest(held.trajectory) < 5e-4);
+  }
+}
