@@ -12,6 +12,9 @@ using Eigen::Vector3d;
 /// Ratio of a phase's duration from which on an instant lies between its knots, and of what is missed there by which
 /// the instants that are looked at are kept further inside. Chosen.
 constexpr double kBetweenKnots = 0.02, kRoomRatio = 1.5;
+/// Depth in a solid [m] from which a sole is taken to have caught the solid's side, for a robot of a person's size.
+/// Chosen.
+constexpr double kBeside_m = 0.02;
 
 /// A box that is smaller on all sides; one that is thinner than that keeps its middle.
 void shrink(EndLimits& limit, double by) {
@@ -33,6 +36,17 @@ void hold_joints(Problem& problem, Tuning& tuning, double torques_by, double spe
     limb.ankle_torque *= 1.0 - std::min(torques_by, kJointSpareMax);
     limb.knee_speed *= 1.0 - std::min(speeds_by, kJointSpareMax);
   }
+}
+
+/// Swings keep out of solids by so much more. Depths are measured from above: what is deep has come a little past a
+/// solid's side, which footholds further inside of their own surface mend, and no higher swing.
+void keep_out_further(Problem& problem, Tuning& tuning, double by) {
+  const double unit = problem.similarity.length / problem.units.length;
+  tuning.clear_swings = true;
+  if (by < kBeside_m * unit)
+    problem.swing_room += by;
+  else
+    tuning.extra_margin += kExtraMargin_m * unit;
 }
 
 /// The state at the goal weighs more. Making contacts exact cuts moments about the normal, and a base that lacks them
@@ -62,8 +76,7 @@ void tighten(Problem& problem, Tuning& tuning, const std::vector<Violation>& vio
     if (v.name == "reach") {
       for (EndLimits& limit : problem.limits) shrink(limit, length);
     } else if (v.name == "clearance") {
-      tuning.clear_swings = true;
-      problem.swing_room += length;
+      keep_out_further(problem, tuning, length);
     } else if (v.name == "goal") {
       aim_firmer(problem);
     } else if (v.name == "friction") {

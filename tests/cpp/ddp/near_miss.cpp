@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "ddp/constants.hpp"
 #include "ddp/moment_limits.hpp"
 #include "support.hpp"
 
@@ -40,6 +41,19 @@ TEST_CASE("swings that caught an edge by 6 mm are held out of solids, with 6 mm 
   const ddp::Problem tight = after("clearance", 0.006, &tuning);
   CHECK(tuning.clear_swings);
   CHECK((tight.swing_room - usual.swing_room) * usual.units.length == doctest::Approx(0.006));
+}
+
+TEST_CASE("soles that are deep in a solid have come past its side: footholds go further inside, swings stay") {
+  const ddp::Problem usual = walk();
+  ddp::Tuning tuning = usual.tuning();
+  const ddp::Problem tight = after("clearance", 0.045, &tuning);
+  CHECK(tuning.clear_swings);
+  CHECK(tight.swing_room == usual.swing_room);
+  CHECK(tuning.extra_margin * usual.units.length ==
+        doctest::Approx(ddp::kExtraMargin_m * usual.similarity.length).epsilon(1e-9));
+  ddp::Tuning shallow = usual.tuning();
+  after("clearance", 0.015, &shallow);
+  CHECK(shallow.extra_margin == usual.tuning().extra_margin);
 }
 
 TEST_CASE("a goal that was missed weighs more, and moments keep below what exact contacts cut them to") {
