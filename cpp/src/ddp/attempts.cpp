@@ -61,7 +61,10 @@ std::vector<Violation> Attempts::finish(Incumbent now, const Tuning& tuning) {
     const Violation& worst = *std::max_element(violations.begin(), violations.end(), [](const auto& a, const auto& b) {
       return violation_ratio(a) < violation_ratio(b);
     });
-    verdict = "violates " + worst.name + ", " + model::digits(violation_ratio(worst), "%.3g") + " times its tolerance";
+    verdict = "violates " + worst.name;
+    if (!worst.end_effector.empty()) verdict += " at " + worst.end_effector;
+    if (worst.phase >= 0) verdict += " in phase " + std::to_string(worst.phase);
+    verdict += ", " + model::digits(violation_ratio(worst), "%.3g") + " times its tolerance";
   }
   problem_.options.logger(LogLevel::info, "plan of cost " + model::digits(cost, "%.4g") + ": " + verdict);
   return violations;
