@@ -283,9 +283,13 @@ std::vector<Recovery> recoveries(const Rest& rest, const Now& now) {
     if (made) out.push_back({*std::move(made), robot});
   };
   if (stands((*feet)[0]) && stands((*feet)[1])) {
-    for (int i : {0, 1}) {
+    // A step that is due soon stays due: put off anew by every replan it would never be made.
+    const int due = rest.size() > 1 && rest.surface(1, (*feet)[1]) == kFree ? 1 : 0;
+    const bool is_due = rest.size() > 1 && rest.surface(1, (*feet)[due]) == kFree;
+    const double left_s = std::max(rest.plan.phases.front().duration, kReplanRest_s * time);
+    for (int i : {due, 1 - due}) {
       Steps made(rest, now, robot, *feet);
-      made.wait(kBetween_s * time);
+      made.wait(is_due && i == due ? std::min(left_s, kBetween_s * time) : kBetween_s * time);
       add(steps(std::move(made), (*feet)[i], (*feet)[1 - i], kSwing_s * time, Across::no, now.similarity), robot);
     }
     return out;

@@ -91,6 +91,22 @@ TEST_CASE(
   CHECK(tried(0.0, 0.5, {}).size() == 2);
 }
 
+TEST_CASE("with both feet on the ground the step that is due comes first and is not put off, the other one later") {
+  const Swinging swing = swinging();
+  for (const double left_s : {0.03, 0.06}) {
+    CAPTURE(left_s);
+    const std::vector<Recovery> found = tried(swing.lifts_s - left_s, 0.4, {});
+    REQUIRE(found.size() == 2);
+    const Rest &due = found.front().rest, &late = found.back().rest;
+    for (const int e : {0, 1}) CHECK(due.surface(0, e) != kFree);
+    CHECK(due.surface(1, swing.foot) == kFree);
+    CHECK(due.surface(1, swing.other) != kFree);
+    CHECK(due.plan.phases.front().duration == doctest::Approx(left_s).epsilon(1e-6));
+    CHECK(late.surface(1, swing.other) == kFree);
+    CHECK(late.plan.phases.front().duration > 0.1);
+  }
+}
+
 TEST_CASE("a hard push is answered by a plan that the checker accepts, steps to a stand among them") {
   const Swinging swing = swinging();
   int caught = 0;
