@@ -195,7 +195,7 @@ EndLimits Problem::limits_of(const EndEffector& end) const {
   for (double* length : {&l.limb.upper, &l.limb.lower, &l.limb.margin}) *length /= units.length;
   if (l.limb.given()) {
     const double longest = VirtualLeg::max_length({l.limb.upper, l.limb.lower}) - l.limb.margin;
-    l.leg_max = longest - margin.x() / units.length;
+    l.leg_max = longest - std::clamp(longest - l.nominal_leg(), 0.0, margin.x() / units.length);
   }
   l.limb.knee_torque /= units.moment();
   l.limb.hip_torque /= units.moment();

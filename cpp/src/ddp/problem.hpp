@@ -65,6 +65,9 @@ struct EndLimits {
   LimbLimits limb;                      ///< none where the options do without
   double leg_max = 0.0;                 ///< from hip to ankle, where there are limb limits
   bool balances = false;                ///< a point foot on which a robot that is tracked keeps its balance
+
+  /// Length of the leg in the nominal stance.
+  double nominal_leg() const { return (limb.hip_B - nominal - limb.ankle).norm(); }
 };
 
 /// The robot that is planned for: without limb limits where the options do without joint limits.

@@ -34,6 +34,26 @@ TEST_CASE("a reach box that was left by 4 mm is planned 4 mm smaller on all side
   }
 }
 
+TEST_CASE("legs are planned shorter, too, but never than in the nominal stance") {
+  mcplan::Robot robot = scenes::humanoid44();
+  for (int l : {0, 1}) {
+    mcplan::EndEffector& foot = robot.end_effectors[l];
+    foot.limb.hip_B = {0.0, foot.nominal_B.y(), -0.05};
+    foot.limb.upper = foot.limb.lower = 0.36;
+  }
+  const ddp::Problem usual(scenes::flat(), robot, phases(6));
+  const auto shorter_m = [&](double by) {
+    ddp::Problem problem = usual;
+    ddp::Tuning tuning = problem.tuning();
+    ddp::tighten(problem, tuning, {{"reach", 2, "left_foot", 0.5, by, 0.001, "m", ""}});
+    return (usual.limits[0].leg_max - problem.limits[0].leg_max) * usual.units.length;
+  };
+  const double spare_m = usual.limits[0].leg_max * usual.units.length - 0.65;
+  REQUIRE(spare_m > 0.01);
+  CHECK(shorter_m(0.004) == doctest::Approx(0.004));
+  CHECK(shorter_m(1.0) == doctest::Approx(spare_m));
+}
+
 TEST_CASE("swings that caught an edge by 6 mm are held out of solids, with 6 mm more room") {
   const ddp::Problem usual = walk();
   ddp::Tuning tuning = usual.tuning();

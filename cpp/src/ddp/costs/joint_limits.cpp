@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ddp/constants.hpp"
+#include "ddp/hip.hpp"
 #include "ddp/virtual_leg.hpp"
 #include "force_rows.hpp"
 #include "mcplan/base/rotation.hpp"
@@ -13,26 +14,22 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A leg in contact at one instant: its hip moves with the CoM, the base and all legs,
-///     hip = p + R hip_B + shift sum_m (p_m - p - R nominal_m),
-/// its ankle stands on the surface, and it pushes with f = mu (p - s) at a.
+/// A leg in contact at one instant: its hip moves with the CoM, the base and all legs, its ankle stands on the surface,
+/// and it pushes with f = mu (p - s) at a.
 struct Stand {
   Stand(const StepView& step, const Instant& instant_in, const Matrix3d& sole)
       : instant(instant_in), limb(step.problem.limits[step.l].limb) {
     const Problem& problem = step.problem;
-    const Problem::Jointed& jointed = problem.jointed;
     const Layout& at = problem.layout;
     rotation = rotation_from_rpy(instant.rpy);
-    hip_B = limb.hip_B - limb.hip_shift * jointed.nominal_sum;
-    by_com = 1.0 - limb.hip_shift * static_cast<double>(jointed.ends.size());
-    Vector3d hip = by_com * instant.com + rotation * hip_B;
-    for (int m : jointed.ends)
-      hip += limb.hip_shift * (step.x.segment<3>(at.end(m)) + instant.fraction * step.u->segment<3>(at.stride(m)));
+    const Hip hip(problem, limb, instant.com, rotation, step.x, step.u, instant.fraction);
+    hip_B = hip.own_B;
+    by_com = hip.by_com;
     ankle = step.x.segment<3>(at.end(step.l)) + sole * limb.ankle;
     has_sole = problem.limits[step.l].half_size.maxCoeff() > 0.0;
     heading = has_sole ? Vector3d(sole.col(0)) : Vector3d(rotation.col(0));
     links = {limb.upper, limb.lower, limb.bends_backward ? -1.0 : 1.0};
-    u = hip - ankle;
+    u = hip.place_W - ankle;
     lever = instant.com - at.line_point(step.x, *step.u, step.l);
     mu = step.pendulum.mu(*step.u, step.l);
     force = mu * lever;

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "ddp/hip.hpp"
+
 namespace mcplan::ddp::polish {
 
 using Eigen::ArrayXd;
@@ -15,17 +17,10 @@ struct LegLengths::Leg {
   Leg(const Problem& problem, const BodyPose& pose, int l, const Eigen::Matrix3d& sole, const VectorXd& x,
       const VectorXd* u, double fraction)
       : limit(problem.limits[l]) {
-    const Problem::Jointed& jointed = problem.jointed;
-    const Layout& at = problem.layout;
-    const double shift = limit.limb.hip_shift;
-    by_com = 1.0 - shift * static_cast<double>(jointed.ends.size());
-    from_com_W = pose.rotation * (limit.limb.hip_B - shift * jointed.nominal_sum);
-    Vector3d hip = by_com * pose.com + from_com_W;
-    for (int m : jointed.ends) {
-      hip += shift * x.segment<3>(at.end(m));
-      if (u) hip += shift * fraction * u->segment<3>(at.stride(m));
-    }
-    const Vector3d between = hip - x.segment<3>(at.end(l)) - sole * limit.limb.ankle;
+    const Hip hip(problem, limit.limb, pose.com, pose.rotation, x, u, fraction);
+    by_com = hip.by_com;
+    from_com_W = pose.rotation * hip.own_B;
+    const Vector3d between = hip.place_W - x.segment<3>(problem.layout.end(l)) - sole * limit.limb.ankle;
     length = between.norm();
     direction = between / std::max(length, 1e-9);
   }
@@ -50,6 +45,7 @@ LegLengths::LegLengths(const FixedSequence& fixed) : fixed_(&fixed), phases_(fix
         phases_[k].rows.push_back({static_cast<int>(c), i});
     }
     phases_[k].by.setZero(fixed.size(k), static_cast<int>(phases_[k].rows.size()));
+    phases_[k].weighted = phases_[k].by;
   }
 }
 
@@ -104,14 +100,14 @@ void LegLengths::add(const Motion& motion, int k, const MatrixXd& lifted, int ro
       if (problem.limits[swinging.l].limb.given())
         by.segment<3>(swinging.stride) += shift * fraction * stands.direction;
   }
-  scaled_.noalias() = of.by * d.segment(row, count).matrix().asDiagonal();
-  model.h.noalias() += scaled_.lazyProduct(of.by.transpose());
+  of.weighted.noalias() = of.by * d.segment(row, count).matrix().asDiagonal();
+  model.h.noalias() += of.weighted.lazyProduct(of.by.transpose());
   model.g.noalias() += of.by.lazyProduct(y.segment(row, count).matrix());
 }
 
 void LegLengths::along(int k, const VectorXd& dz, int row, ArrayXd& out) const {
   const OfPhase& of = phases_[k];
-  out.segment(row, of.by.cols()) = (of.by.transpose() * dz).array();
+  out.segment(row, of.by.cols()).matrix().noalias() = of.by.transpose() * dz;
 }
 
 LegLengths::AtStart LegLengths::at_start(const Motion& motion, int l, const Vector3d& spin) const {

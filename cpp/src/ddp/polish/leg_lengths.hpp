@@ -10,10 +10,10 @@ namespace mcplan::ddp::polish {
 
 /// Legs that stand are no longer than their links allow, at the instants of every phase:
 ///
-///     |hip - ankle| <= leg_max,    hip = p + R hip_B + shift sum_m (p_m - p - R nominal_m),  ankle = p_l + S ankle_S,
+///     |hip - ankle| <= leg_max,    ankle = p_l + S ankle_S,
 ///
-/// hip_B, shift and ankle_S of LimbLimits, m the end-effectors that have such limits, S the frame of the sole. Legs
-/// that swing move along a straight line here. The checker's constraint "reach" asks for the same. Not in the paper.
+/// the hip that of ddp/hip.hpp, ankle_S of LimbLimits, S the frame of the sole. The checker's constraint "reach" asks
+/// for the same. Not in the paper.
 class LegLengths {
  public:
   explicit LegLengths(const FixedSequence& fixed);
@@ -48,14 +48,14 @@ class LegLengths {
  private:
   struct OfPhase {
     std::vector<Row> rows;
-    Eigen::MatrixXd by;  ///< gradients over z, a column a row
+    Eigen::MatrixXd by;        ///< gradients over z, a column a row
+    Eigen::MatrixXd weighted;  ///< the same times D
   };
   struct Leg;
   Leg leg(const Motion& motion, int k, const Row& row) const;
 
   const FixedSequence* fixed_;
   std::vector<OfPhase> phases_;
-  Eigen::MatrixXd scaled_;
 };
 
 }  // namespace mcplan::ddp::polish

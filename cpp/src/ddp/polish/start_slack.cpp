@@ -1,15 +1,13 @@
 #include "ddp/polish/start_slack.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "mcplan/base/rotation.hpp"
 
 namespace mcplan::ddp::polish {
 
 using Eigen::Vector3d;
-
-/// Where there is no limit, nothing is ever beyond it.
-constexpr double kNoSlack = 1e3;
 
 StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion, const LegLengths& legs) {
   const Problem& problem = fixed.problem();
@@ -38,7 +36,7 @@ StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion, const L
     }
     for (int i = 0; i < limit.cuts; ++i)
       rows.push_back({limit.cut_A.row(i).dot(place) - limit.cut_b[i], std::max(limit.cut_A.row(i).dot(rate), 0.0)});
-    Row& leg = leg_.emplace_back(Row{-kNoSlack, 0.0});
+    Row& leg = leg_.emplace_back(Row{-std::numeric_limits<double>::infinity(), 0.0});  // no limit, no excess
     if (stands && limit.limb.given()) {
       const LegLengths::AtStart now = legs.at_start(motion, l, spin);
       leg = {now.value, std::max(now.rate, 0.0)};

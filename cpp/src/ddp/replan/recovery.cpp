@@ -284,12 +284,12 @@ std::vector<Recovery> recoveries(const Rest& rest, const Now& now) {
   };
   if (stands((*feet)[0]) && stands((*feet)[1])) {
     // A step that is due soon stays due: put off anew by every replan it would never be made.
-    const int due = rest.size() > 1 && rest.surface(1, (*feet)[1]) == kFree ? 1 : 0;
-    const bool is_due = rest.size() > 1 && rest.surface(1, (*feet)[due]) == kFree;
+    const auto is_due = [&](int i) { return rest.surface(1, (*feet)[i]) == kFree; };
     const double left_s = std::max(rest.plan.phases.front().duration, kReplanRest_s * time);
-    for (int i : {due, 1 - due}) {
+    const int first = is_due(1) ? 1 : 0;
+    for (int i : {first, 1 - first}) {
       Steps made(rest, now, robot, *feet);
-      made.wait(is_due && i == due ? std::min(left_s, kBetween_s * time) : kBetween_s * time);
+      made.wait(is_due(i) ? std::min(left_s, kBetween_s * time) : kBetween_s * time);
       add(steps(std::move(made), (*feet)[i], (*feet)[1 - i], kSwing_s * time, Across::no, now.similarity), robot);
     }
     return out;

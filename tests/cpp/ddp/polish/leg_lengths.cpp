@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "ddp/polish/interior_point.hpp"
+#include "ddp/polish/start_slack.hpp"
 #include "ddp/stepping_sequence.hpp"
 #include "ddp/support.hpp"
 
@@ -121,4 +122,49 @@ TEST_CASE("a walk keeps its legs shorter than their links, which it would not wi
     CHECK(longest(free.trajectory) > 5e-3);
     CHECK(longest(held.trajectory) < 5e-4);
   }
+}
+
+TEST_CASE("what a start exceeds is the length of its legs, at the rate at which CoM and base go on, and fades out") {
+  // Longer than the links allow from the beginning.
+  const mcplan::Robot robot = with_legs(0.0, -0.1);
+  Problem p(scenes::flat(0.5), robot, phases(10));
+  p.start_slack = 1.5;
+  const ContactSequence sequence = stepping_sequence(p, 0);
+  const polish::FixedSequence fixed(p, sequence);
+  const Pendulum pendulum(p.layout, p.inertia, p.options.stiffness_input, p.model);
+  const polish::LegLengths legs(fixed);
+  const Vector3d spin(0.0, 0.0, 0.4), velocity(0.2, -0.3, 0.1);
+  polish::Motion motion(fixed);
+  const auto after = [&](double time) {
+    motion.trajectory = p.initial_guess(sequence);
+    Eigen::VectorXd& x = motion.trajectory.x[0];
+    x = p.start;
+    x.segment<3>(p.layout.velocity()) = velocity;
+    x.segment<3>(p.layout.com()) += time * velocity;
+    for (int a = 0; a < p.layout.axis_count(); ++a) {
+      x[p.layout.momentum(a)] = p.inertia[p.layout.axes()[a]] * spin[p.layout.axes()[a]];
+      x[p.layout.angle(a)] += time * spin[p.layout.axes()[a]];
+    }
+    REQUIRE(motion.evaluate(pendulum));
+  };
+  constexpr double kStep = 1e-5;
+  for (int l = 0; l < 2; ++l) {
+    after(kStep);
+    const double later = legs.at_start(motion, l, spin).value;
+    after(-kStep);
+    const double earlier = legs.at_start(motion, l, spin).value;
+    after(0.0);
+    const polish::LegLengths::AtStart now = legs.at_start(motion, l, spin);
+    CHECK(now.rate == doctest::Approx((later - earlier) / (2.0 * kStep)).epsilon(1e-5));
+    const polish::StartSlack slack(fixed, motion, legs);
+    REQUIRE(slack.any());
+    for (const double t : {0.0, 0.4, 1.2, 1.6})
+      for (const double room : {0.0, 0.02}) {
+        const double fade = std::max(0.0, 1.0 - t * t / (1.5 * 1.5));
+        const double excess = std::max(now.value + room + std::max(now.rate, 0.0) * t, 0.0);
+        CHECK(slack.leg(l, t, room) == doctest::Approx(excess * fade).epsilon(1e-6));
+      }
+  }
+  for (int l = 2; l < p.layout.end_effector_count(); ++l)
+    CHECK(polish::StartSlack(fixed, motion, legs).leg(l, 0.1, 0.02) == 0.0);
 }
