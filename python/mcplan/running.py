@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from mcplan.online.result import RunResult
 
 #: Short names of options.
-SHORT = {"push": "pushes", "latency": "latency_s", "period": "period_s", "duration": "duration_s"}
+SHORT = {"push": "pushes", "latency": "latency_s", "period": "period_s", "duration": "duration_s", "keep": "keep_s"}
 #: Options of a tracked run that a run with replanning has not: help for the base that would hide what replanning does.
 WITHOUT = ("assist",)
 

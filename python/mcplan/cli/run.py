@@ -85,6 +85,12 @@ ToldAtOption = Annotated[
         "--told-at", metavar="S", help="Time from which on the planner knows the true scene [s]; default: never."
     ),
 ]
+KeepOption = Annotated[
+    float | None,
+    typer.Option(
+        "--keep", metavar="S", help="Length of what is recorded, the end of the run [s]; default: all. For long runs."
+    ),
+]
 SteerOption = Annotated[
     bool, typer.Option("--steer", help="Walk as the keys of the terminal say, which it names; at real time at most.")
 ]
@@ -106,6 +112,7 @@ ReplanningOption = Annotated[
     period_s="--period",
     duration_s="--duration",
     told_at_s="--told-at",
+    keep_s="--keep",
     true_scene="--true-scene",
     replanning="--replanning",
     friction_scale="--friction",
@@ -126,6 +133,7 @@ def run(
     replanning: ReplanningOption = True,
     true_scene: TrueSceneOption = None,
     told_at: ToldAtOption = None,
+    keep: KeepOption = None,
     mass_scale: track.MassScaleOption = 1.0,
     friction: track.FrictionOption = 1.0,
     ground_shift: track.GroundShiftOption = 0.0,
@@ -164,7 +172,7 @@ def run(
     values: dict[str, Any] = {"pushes": parse_pushes(push or []), "seed": seed, "replanning": replanning}
     values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
     values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay, "sensor_noise": sensor_noise}
-    values |= {"latency_s": latency, "period_s": period, "duration_s": duration, "told_at_s": told_at}
+    values |= {"latency_s": latency, "period_s": period, "duration_s": duration, "told_at_s": told_at, "keep_s": keep}
     values["engine"] = engine
     values["command"] = [_numbers(text) for text in command or []]
     values["goal"] = [_numbers(text, "--goal", (2, 3, 4), "x,y[,yaw[,at]], such as 1.5,0.3") for text in goal or []]
@@ -236,7 +244,8 @@ def summary(result: RunResult) -> dict[str, Any]:
     from mcplan.cli.track_text import summary as track_summary
 
     data = track_summary(result, None, None)
-    data["duration_s"] = result.plans[-1].begins_s + result.plans[-1].plan.duration()
+    last = result.plans[-1]
+    data["duration_s"] = result.online.kept_from_s + last.begins_s + last.plan.duration()
     return {
         **data,
         **finite_items(result.online.as_dict()),

@@ -24,3 +24,9 @@ class FollowedReferences:
         """Row n is row k of a window."""
         for name in KEPT:
             getattr(self, name)[n] = getattr(window, name)[k]
+
+    def drop(self, steps: int) -> None:
+        """Forget the first rows: the others move to the front."""
+        for name in KEPT:
+            rows = getattr(self, name)
+            rows[:-steps] = rows[steps:].copy()

@@ -87,10 +87,10 @@ class HorizonLoop(Loop):
             if late or any(self.controller.contacts[foot].mode is Mode.FREE for foot in self.feet):
                 self.pending, self.touchdowns.failed = None, True
                 return
-        count = len(self.plans)
+        before = self.plan
         super()._take_over(now_s)
         if pending is not None and self.pending is None:
-            self.touchdowns.failed = len(self.plans) == count
+            self.touchdowns.failed = self.plan is before
             self.stopping = self.stopping and self.touchdowns.failed
         self._count_stop(now_s)
 

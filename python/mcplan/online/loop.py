@@ -14,7 +14,7 @@ from mcplan.errors import InvalidInput
 from mcplan.tracking.interruption import Interruption
 from mcplan.tracking.measures import measure, with_touches
 from mcplan.tracking.options import Options, Push
-from mcplan.tracking.recorder import Acting, Recorder
+from mcplan.tracking.recorder import Acting
 from mcplan.tracking.references import references
 from mcplan.tracking.robot_dynamics import RobotDynamics
 from mcplan.tracking.runner import CONTACT_RATIO, posture_at
@@ -23,8 +23,8 @@ from mcplan.tracking.separation import Separation
 
 from .contacts import ContactFilter
 from .ending import fallen, length_of
-from .followed import FollowedReferences
 from .goals import Aim
+from .kept import Kept
 from .known_ground import KnownGround
 from .measures import Tally
 from .options import OnlineOptions
@@ -122,10 +122,8 @@ class Loop:
         self.aim = Aim(plan.scene, self.robot)
         self.late_s = np.inf  # since when an end-effector is late
         self.other_ground = False  # what the plan under way does not know yet
-        self.plans = [FollowedPlan(plan, 0.0, 0.0)]
-        count = int(np.ceil(self.length_s / self.dt_s - 1e-9)) + 1
-        self.followed = FollowedReferences(count, desired)
-        self.recorder = Recorder(plan, self.urdf_model, simulation.model.joints, self.followed)
+        self.steps = int(np.ceil(self.length_s / self.dt_s - 1e-9)) + 1
+        self.kept = Kept(plan, self.urdf_model, simulation.model.joints, desired, self.steps, online.keep_s)
         self.failures, self.control_s = 0, 0.0
         self.beside, self.ends = beside, False
         self.pushes: list[Push] = []
@@ -146,12 +144,12 @@ class Loop:
     @property
     def plan(self) -> FollowedPlan:
         """The one under way."""
-        return self.plans[-1]
+        return self.kept.plans[-1]
 
     def run(self, stop: Interruption) -> RunResult:
         """Go on until the end, a fall, or Ctrl-C."""
         fell_at, began, n = np.inf, time.perf_counter(), 0
-        for n in range(self.followed.count):
+        for n in range(self.steps):
             now_s = n * self.dt_s
             dynamics = self._step(n, now_s)
             if self.simulation.broke or fallen(dynamics, self.robot):
@@ -193,8 +191,8 @@ class Loop:
         push = sum((p.force_W(now_s) for p in self._acting(now_s)), np.zeros(3))
         steps = round(self.dt_s / options.simulation_step_s)
         given = simulation.advance(command.torques, np.concatenate([push, np.zeros(3)]), steps)
-        self.followed.add(n, *self.controller.row(n))
-        self.recorder.add(dynamics, Acting(given, forces, in_contact, np.zeros(6), push, touches))
+        acting = Acting(given, forces, in_contact, np.zeros(6), push, touches)
+        self.kept.add(self.controller.row(n), dynamics, acting)
         if steps_left(self.plan.plan, now_s - self.plan.begins_s):
             self.tally.oldest_s = max(self.tally.oldest_s, now_s - self.plan.begins_s)
         return dynamics
@@ -330,7 +328,7 @@ class Loop:
             self._plan_on(self.ground.scene)
         elif self.planner.command is None and update.status in ("solved", "acceptable"):
             self.aim.led_to()
-        self.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
+        self.kept.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
         self.tally.used += 1
 
     def _touchdowns(self, before: NDArray[np.bool_], standing: NDArray[np.bool_], dynamics: RobotDynamics) -> None:
@@ -356,12 +354,13 @@ class Loop:
         return bool(now_s - self.plan.begins_s > self.plan.plan.duration() + self.options.hold_s)
 
     def _result(self, n: int, fell_at: float, wall_s: float, interrupted: bool) -> RunResult:
-        recording = replace(self.recorder.finish(fell_at), true_scene=self.true_scene)
+        recording = replace(self.kept.recording(fell_at), true_scene=self.true_scene)
         measures = measure(recording, self._end_posture())
         if self.simulation.model.link_pairs:
             measures = with_touches(measures, recording.touches)
         measures = replace(
             measures,
+            completed_s=n * self.dt_s,
             qp_failures=self.failures,
             simulator_warnings=self.simulation.warnings,
             realtime_factor=(n + 1) * self.dt_s / wall_s,
@@ -371,7 +370,8 @@ class Loop:
         if self.beside.steer is not None:
             options, online = as_it_was(options, online, n * self.dt_s)
         tally = self.tally.measures(self.ground.felt, self._goal_off_m(n * self.dt_s))
-        return RunResult(recording, measures, options, interrupted, tally, online, tuple(self.plans))
+        tally = replace(tally, kept_from_s=self.kept.from_s)
+        return RunResult(recording, measures, options, interrupted, tally, online, self.kept.plans_of_recording())
 
     def _goal_off_m(self, now_s: float) -> float | None:
         """From the CoM to the goal, on the level [m]; None: none is walked to."""

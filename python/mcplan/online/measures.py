@@ -26,6 +26,8 @@ class OnlineMeasures:
         ground_felt: How often a surface was found to be higher, lower or more slippery than was known, by the feet on it.
         stops: How often the robot was brought to a stand since no plan came.
         goal_off_m: From the CoM to the goal at the end, on the level [m]; None: a command held then, or the walk was one of rhp.
+        kept_from_s: Time of the run at which recording and plans begin, and measures of tracking, where only the end of the run
+            is kept.
         statuses: How many computations had which status.
         reasons: How many were asked for by what: the period, a touchdown, the CoM or the capture point off the plan.
     """
@@ -41,6 +43,7 @@ class OnlineMeasures:
     ground_felt: int = 0
     stops: int = 0
     goal_off_m: float | None = None
+    kept_from_s: float = 0.0
     statuses: dict[str, int] = field(default_factory=dict)
     reasons: dict[str, int] = field(default_factory=dict)
 

@@ -36,6 +36,8 @@ class OnlineOptions:
         start_slack_s: Time within which what the measured state violates has to be made good, for a robot of human size.
         felt_ground: Surfaces are taken to be at the height at which feet stand on them.
         told_at_s: Time from which on the planner knows the ground that is simulated, where that is not the plan's; nan: never.
+        keep_s: The last so many seconds are in the result: recording, plans, measures of tracking; nan: all of the run, which
+            takes 60 MB a minute for TALOS.
         stop_after_s: The robot is brought to a stand if it has left its plan and no plan has come for so long.
     """
 
@@ -56,6 +58,7 @@ class OnlineOptions:
     stop_after_s: float = 0.5
     felt_ground: bool = True
     told_at_s: float = float("nan")
+    keep_s: float = float("nan")
 
     def validate(self) -> None:
         """Raise InvalidOptions naming the first field out of its range."""
@@ -70,6 +73,8 @@ class OnlineOptions:
         for name, high in (("latency_s", 1.0), ("time_limit_s", 10.0), ("duration_s", 3600.0), ("told_at_s", 3600.0)):
             value = getattr(self, name)
             _require(name, f"must lie in 0 to {high:g}, or be nan", value, bool(np.isnan(value) or 0 <= value <= high))
+        kept = bool(np.isnan(self.keep_s) or 0.1 <= self.keep_s <= 3600.0)
+        _require("keep_s", "must lie in 0.1 to 3600, or be nan", self.keep_s, kept)
         for name, rule in (
             ("command", "must be three finite numbers, or four with a time before them"),
             ("goal", "must be two to four finite numbers: x, y, heading, and the time from which on it holds"),

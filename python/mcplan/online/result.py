@@ -98,7 +98,8 @@ class RunResult(TrackingResult):
             )
         title = f"{recording.plan.scene.name}  {recording.simulated_robot.name}  {ended} ({how})"
         rows = [row for row in rows_of(self) if row[0] != "base at the end"]
-        return as_text(title, [*rows[:-2], *online_rows(self.online), *rows[-2:]])
+        kept = [("recorded", f"from {self.online.kept_from_s:.2f} s on")] if self.online.kept_from_s > 0.0 else []
+        return as_text(title, [*kept, *rows[:-2], *online_rows(self.online), *rows[-2:]])
 
 
 def result_from(header: Header, arrays: Arrays) -> TrackingResult:

@@ -90,6 +90,16 @@ class Recorder:
         self.touches.add(n * self.desired.dt_s, acting.touches)
         self.count = n + 1
 
+    def drop(self, steps: int) -> None:
+        """Forget the first control steps: times count from the first one that is left."""
+        for rows in (
+            *(self.configurations, self.velocities, self.torques, self.com_W, self.momentum_W, self.end_effectors_W),
+            *(self.forces_W, self.contacts, self.assist, self.pushes_W),
+        ):
+            rows[:-steps] = rows[steps:].copy()
+        self.touches.drop(steps * self.desired.dt_s)
+        self.count -= steps
+
     def finish(self, fell_at_s: float) -> Recording:
         """The recording of the steps added."""
         n, desired = self.count, self.desired

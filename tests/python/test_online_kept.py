@@ -1,0 +1,88 @@
+"""The end of a long run is kept as it is in the recording of all of it, and memory does not grow."""
+
+import tracemalloc
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+
+for name in ("mujoco", "pinocchio", "proxsuite", "example_robot_data"):
+    pytest.importorskip(name)
+
+LATENCY = 0.02
+ROWS = ("configurations", "torques", "com_W", "com_plan_W", "forces_W", "contacts_plan", "pushes_W", "end_effectors_W")
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return mp.plan("flat", "talos").plan
+
+
+@pytest.fixture(scope="module")
+def runs(plan):
+    """The same run with all of it recorded, and with its end."""
+    told = {"latency": LATENCY, "duration": 1.3, "push": (60.0, 0.2, 0.7, 90.0)}
+    return mp.run(plan, **told), mp.run(plan, keep=0.5, **told)
+
+
+def test_the_end_is_what_it_was(runs):
+    whole, end = runs
+    dropped = len(whole.recording.times_s) - len(end.recording.times_s)
+    assert end.online.kept_from_s == pytest.approx(0.8) and whole.online.kept_from_s == 0.0
+    assert end.recording.times_s[0] == 0.0 and end.recording.times_s[-1] == pytest.approx(0.5)
+    for field in ROWS:
+        np.testing.assert_array_equal(
+            getattr(end.recording, field), getattr(whole.recording, field)[dropped:], err_msg=field
+        )
+    assert end.measures.completed_s == whole.measures.completed_s == pytest.approx(1.3)
+    assert end.online.replans == whole.online.replans
+
+
+def test_plans_are_those_that_were_followed_then(runs):
+    whole, end = runs
+    followed = [one for one in whole.plans if one.from_s > 0.8]
+    before = whole.plans[len(whole.plans) - len(followed) - 1]
+    assert len(whole.plans) > len(end.plans)
+    assert [one.plan.knots for one in end.plans] == [one.plan.knots for one in [before, *followed]]
+    assert [one.from_s + 0.8 for one in end.plans] == pytest.approx([one.from_s for one in [before, *followed]])
+    assert [one.begins_s + 0.8 for one in end.plans] == pytest.approx([one.begins_s for one in [before, *followed]])
+
+
+def test_what_is_kept_is_saved_drawn_and_said(runs, tmp_path):
+    end = runs[1]
+    assert "recorded" in str(end) and "from 0.80 s on" in str(end) and "recorded  " not in str(runs[0])
+    end.save(tmp_path / "run.npz")
+    again = type(end).load(tmp_path / "run.npz")
+    assert again.online.kept_from_s == end.online.kept_from_s and len(again.plans) == len(end.plans)
+
+
+@pytest.mark.parametrize("seconds", [0.0, -1.0, 1e9, float("inf")])
+def test_a_wrong_length_is_named(plan, seconds):
+    with pytest.raises(mp.errors.InvalidOptions, match="keep_s: must lie in 0.1 to 3600"):
+        mp.run(plan, keep=seconds)
+
+
+def test_a_fall_keeps_its_place(plan):
+    run = mp.run(plan, replanning=False, push=(600.0, 0.2, 0.3, 90.0), keep=0.3, latency=LATENCY, duration=3.0)
+    assert run.measures.fell
+    fell_s = run.online.kept_from_s + run.recording.fell_at_s
+    assert fell_s == pytest.approx(run.measures.completed_s)
+    assert run.recording.fell_at_s == pytest.approx(run.recording.times_s[-1])
+
+
+@pytest.mark.slow
+def test_memory_does_not_grow_with_the_length_of_a_run(plan):
+    """Objects of Python and arrays of NumPy; those of C++ are what benchmarks/long_walk.py looks at."""
+    sizes = []
+
+    def look(time_s, *_):
+        if round(time_s / 0.002) in (5000, 10000):
+            sizes.append(tracemalloc.get_traced_memory()[0])
+
+    tracemalloc.start()
+    try:
+        mp.run(plan, command=(0.0, 0.0, 0.0), keep=1.0, duration=20.5, latency=LATENCY, watch=look)
+    finally:
+        tracemalloc.stop()
+    assert sizes[1] - sizes[0] < 1e5
