@@ -114,10 +114,10 @@ class Search {
   /// limit on iterations would have cut it short.
   bool replay(Trace&& trace, int rows);
 
-  /// Whether the interior point polishes. It has no rows for limb limits.
+  /// Whether the interior point polishes.
   bool exact_contacts(const Tuning& tuning) const {
     const bool chosen = problem_->options.polish == Polish::interior_point && !tuning.penalty;
-    return (tuning.exact || chosen) && !tuning.hold_joints;
+    return tuning.exact || chosen;
   }
 
   /// From now on refine() and change_tail() try no sequence again where an earlier trial has shown that the interior

@@ -25,7 +25,12 @@ Vector3d goal_of(const Problem& problem, int l) { return problem.reference.x.bac
 }  // namespace
 
 Limits::Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tuning& tuning)
-    : fixed_(&fixed), pendulum_(&pendulum), tuning_(tuning), legs_(fixed), phases_(fixed.steps() + 1) {
+    : fixed_(&fixed),
+      pendulum_(&pendulum),
+      tuning_(tuning),
+      legs_(fixed),
+      joints_(fixed, pendulum, tuning.hold_joints),
+      phases_(fixed.steps() + 1) {
   const Problem& problem = fixed.problem();
   const int instants = problem.options.interior_points + 2;
   int reaches = 0;
@@ -53,6 +58,7 @@ Limits::Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tunin
       of.contacts.push_back(c);
     }
     of.legs = push(static_cast<int>(legs_.rows(k).size()), tuning.limit_weight);
+    of.joints = push(joints_.count(k), tuning.limit_weight);
   }
   precision_ = Eigen::Map<RowArray>(weights_.data(), static_cast<int>(weights_.size())).square();
 }
@@ -181,6 +187,7 @@ void Limits::values(const Motion& motion, RowArray& r) const {
       }
     }
     legs_.values(motion, k, of.legs, r);
+    joints_.values(motion, k, of.joints, r);
   }
   if (slack_.size() > 0) r -= slack_;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "ddp/polish/joint_rows.hpp"
 #include "ddp/polish/leg_lengths.hpp"
 #include "ddp/polish/limit_rows.hpp"
 #include "ddp/polish/motion.hpp"
@@ -17,7 +18,8 @@ using RowArray = Eigen::ArrayXd;
 /// Every inequality of the problem with its sequence given, as signed rows r(z) <= 0: all of them, always, in one
 /// order, whether they are close to their bounds or not. They are those of the cost terms "bounds", "duration",
 /// "flight_duration", "pressure", "reach", "interior_reach", "friction", "force_cap", "torsion", "yaw_range",
-/// "soles", and of "contact" the edges, where a foothold is chosen, and LegLengths. A cone's row is |d_t| - mu n.d with
+/// "soles", and of "contact" the edges, where a foothold is chosen, "joint_limits" as JointRows, and
+/// LegLengths. A cone's row is |d_t| - mu n.d with
 /// a root that has no kink.
 class Limits {
  public:
@@ -73,6 +75,7 @@ class Limits {
     std::vector<Linear> linear;
     int reach = -1;  ///< first row of the knot's reach boxes
     int legs = 0;    ///< first row of the lengths of legs
+    int joints = 0;  ///< first row of their joints
     std::vector<OfContact> contacts;
     Eigen::MatrixXd lifted;  ///< of the instants after the first: d(com, angles)/d(moving), stacked
   };
@@ -97,6 +100,7 @@ class Limits {
   std::vector<double> weights_;  ///< while rows are made
   RowArray precision_;
   LegLengths legs_;
+  JointRows joints_;
   StartSlack start_slack_;
   RowArray slack_;  ///< taken off r; empty: none
   std::vector<OfPhase> phases_;

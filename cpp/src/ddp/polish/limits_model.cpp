@@ -291,6 +291,7 @@ void Limits::add(const Motion& motion, int k, const RowArray& y, const RowArray&
     for (int b = 0; b < columns; ++b) model.h(phase.moving[b], phase.moving[a]) += half_(b, a) + half_(a, b);
   }
   legs_.add(motion, k, lifted, phases_[k].legs, y, d, model);
+  joints_.add(motion, k, lifted, phases_[k].joints, y, d, model);
 }
 
 /// The rows of an end-effector's reach, where CoM and angles move so.
@@ -363,6 +364,7 @@ void Limits::along(const Motion& motion, const std::vector<VectorXd>& dz, RowArr
     carried_.tail(6 * (motion.instants() - 1)).noalias() = of.lifted * step_;
     for (std::size_t c = 0; c < phase.standing.size(); ++c) contact_along(motion, k, c, dz[k], out);
     legs_.along(k, dz[k], of.legs, out);
+    joints_.along(k, dz[k], of.joints, out);
   }
 }
 

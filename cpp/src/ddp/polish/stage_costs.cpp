@@ -15,9 +15,9 @@ using Eigen::VectorXd;
 constexpr double kPlane = 1000.0;
 
 /// Terms with rows that are taken apart here and in limits.hpp. All others are summed as they are.
-constexpr std::array<const char*, 14> kKnown = {"task",    "duration",       "contact",         "free",     "bounds",
-                                                "reach",   "interior_reach", "flight_duration", "friction", "force_cap",
-                                                "torsion", "yaw_range",      "pressure",        "soles"};
+constexpr std::array<const char*, 15> kKnown = {
+    "task",     "duration",  "contact", "free",      "bounds",   "reach", "interior_reach", "flight_duration",
+    "friction", "force_cap", "torsion", "yaw_range", "pressure", "soles", "joint_limits"};
 
 bool known(const CostTerm& term) {
   return std::any_of(kKnown.begin(), kKnown.end(), [&](const char* name) { return !std::strcmp(name, term.name()); });

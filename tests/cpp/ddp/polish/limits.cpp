@@ -9,8 +9,9 @@ namespace {
 using namespace support;
 using namespace mcplan::ddp;
 
-/// Feet at the end of legs of two links, hips that move with the feet.
-mcplan::Robot with_legs() {
+/// Feet, with or without soles, at the end of legs of two links with weak and slow joints, hips that move with the
+/// feet.
+mcplan::Robot with_legs(bool soles) {
   mcplan::Robot robot = scenes::humanoid44();
   for (const char* name : {"right_foot", "left_foot"}) {
     mcplan::EndEffector& foot = robot.end_effectors[robot.end_effector_index(name)];
@@ -20,22 +21,35 @@ mcplan::Robot with_legs() {
     foot.limb.lower = 0.34;
     foot.limb.ankle = {-0.01, 0.005, 0.06};
     foot.limb.margin = 0.01;
+    foot.limb.knee_torque = 40.0;
+    foot.limb.knee_speed = 1.0;
+    foot.limb.hip_torque = {30.0, 50.0};
+    foot.limb.ankle_torque = {10.0, 20.0};
+    if (soles) continue;
+    foot.half_size.setZero();
+    foot.limb.ankle.setZero();
   }
   return robot;
+}
+
+Tuning holding_joints(const Problem& problem) {
+  Tuning tuning = problem.tuning();
+  tuning.hold_joints = true;
+  return tuning;
 }
 
 /// A shaken motion with a random sequence, and its rows.
 struct Rowed {
   Rowed(const mcplan::Scene& scene, const Options& options, std::uint64_t seed)
       : problem(scene,
-                seed % 3 == 0   ? with_legs()
+                seed % 3 == 0   ? with_legs(seed % 2 == 0)
                 : seed % 3 == 1 ? scenes::humanoid44()
                                 : scenes::humanoid44_cut(),
                 options),
         random(seed),
         fixed(problem, random_sequence(problem, random)),
         pendulum(problem.layout, problem.inertia, problem.options.stiffness_input, problem.model),
-        limits(fixed, pendulum, problem.tuning()),
+        limits(fixed, pendulum, holding_joints(problem)),
         motion(fixed) {
     motion.trajectory = shaken_guess(problem, random, 0.05);
     fixed.impose(motion.trajectory);
