@@ -362,7 +362,7 @@ def test_steps_that_catch_a_push_come_first_where_that_is_asked_for(flat):
     assert usually.report.plan_from == mp.model.PlanFrom.same_sequence
     assert first.report.plan_from == mp.model.PlanFrom.recovery
     end = first.plan.knots[-1]
-    assert mp.check(first.plan).ok and np.linalg.norm(end.com_velocity_W) < 0.01
+    assert mp.check(first.plan).ok() and np.linalg.norm(end.com_velocity_W) < 0.01
     assert end.com_W[0] < usually.plan.knots[-1].com_W[0] - 0.3  # it stands on the way, not at the goal
 
 
@@ -380,7 +380,7 @@ def test_what_only_a_step_across_the_standing_foot_catches_is_caught_by_one():
     without = mp.replan(plan, t, knot, contacts=contacts, robot=robot)
     crossed = mp.replan(plan, t, knot, contacts=contacts, robot=robot, crossing=True)
     assert without.report.status == mp.Status.infeasible
-    assert crossed.report.status == mp.Status.solved and mp.check(crossed.plan).ok
+    assert crossed.report.status == mp.Status.solved and mp.check(crossed.plan).ok()
     lands = next(k for k, row in enumerate(crossed.plan.contact_sequence()) if row[swings] >= 0)
     places = crossed.plan.knots[lands].end_effectors_W
     apart = np.array(places[swings]) - np.array(places[stands])
@@ -412,7 +412,33 @@ def test_steps_that_do_not_catch_a_push_hide_nothing_that_does(ratio):
     recoveries = [line for line in lines if line.startswith("replan, steps that catch a push")]
     assert recoveries and not any(line.endswith("accepted") for line in recoveries)
     assert result.report.plan_from != mp.model.PlanFrom.recovery
-    assert result.report.status == mp.Status.solved and mp.check(result.plan).ok
+    assert result.report.status == mp.Status.solved and mp.check(result.plan).ok()
+
+
+def test_what_is_said_of_a_plan_is_what_the_checker_says_of_it():
+    """Pushes outward over the foot that stands, from such as steps across catch to such as nothing catches."""
+    from mcplan.online.reach import widened
+
+    plan = mp.plan("flat", "talos").plan
+    statuses, kinds = set(), set()
+    for ratio, push in ((0.3, 0.45), (0.3, 0.5), (0.3, 0.55), (0.6, 0.6), (0.2, 0.5), (0.8, 0.8)):
+        t = time_of_phase(plan, 1, ratio)
+        knot, contacts = state_at(plan, t)
+        outward = math.copysign(1.0, plan.robot.end_effectors[0 if contacts[0] >= 0 else 1].nominal_B[1])
+        knot.com_velocity_W = knot.com_velocity_W + [0.1, push * outward, 0.0]
+        found = mp.replan(
+            plan, t, knot, contacts=contacts, robot=widened(plan.robot), recovery_first=True, crossing=True
+        )
+        report, checked = found.report, mp.check(found.plan)
+        statuses.add(report.status)
+        kinds.add(report.plan_from)
+        assert (report.status == mp.Status.solved) == checked.ok(), (report.status, report.message)
+        if "could not be made exact" in report.message:
+            continue
+        assert report.kept_until_s == pytest.approx(checked.kept_until_s, abs=1e-9), (ratio, push)
+        if not checked.ok():
+            assert report.worst_violation == checked.worst(), (ratio, push)
+    assert {mp.Status.solved, mp.Status.infeasible} <= statuses and mp.model.PlanFrom.recovery in kinds
 
 
 def test_a_limit_of_time_that_does_not_strike_changes_no_replan(flat):

@@ -11,7 +11,7 @@ def _solved(seed: int, robot_name: str, **options: object) -> tuple[mp.PlanResul
     lines: list[str] = []
     result = mp.plan(solvable_scene(seed, robot), robot, logger=lambda _, line: lines.append(line), **options)
     assert result.report.status == mp.Status.solved
-    assert mp.check(result.plan).ok
+    assert mp.check(result.plan).ok()
     return result, [line for line in lines if line.startswith("plan of")]
 
 

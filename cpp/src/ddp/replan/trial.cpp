@@ -91,23 +91,24 @@ double two_steps_s(const Plan& plan) {
   return times.back();
 }
 
-/// The checker's word on a plan until then, looked at so many times less often than for a verdict.
-CheckResult look(const Plan& plan, const Now& now, double until_s, const StopRequest& stop, double coarser = 1.0) {
+/// The checker's word on a plan of a robot until then, looked at so many times less often than for a verdict.
+CheckResult look(const Plan& plan, const Robot& robot, const Now& now, double until_s, const StopRequest& stop,
+                 double coarser = 1.0) {
   Tolerances tolerances;
   if (!now.options->search.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
   tolerances.sample_s = coarser * std::max(tolerances.sample_s, plan.duration() / kFullInstantsMax);
-  return check(plan, plan.scene, *now.robot, tolerances, stop, until_s);
+  return check(plan, plan.scene, robot, tolerances, stop, until_s);
 }
 
 /// The checker's word on all of it. What is seen to exceed limits already at few instants is not looked at closely:
 /// that is most of what is tried where little helps, and a close look takes as long as some iterations.
 void look_at_all(Trial& trial, const Now& now, const StopRequest& stop) {
   constexpr double kAll = std::numeric_limits<double>::infinity();
-  CheckResult few = look(trial.plan, now, kAll, stop, kCoarser);
+  CheckResult few = look(trial.plan, *now.robot, now, kAll, stop, kCoarser);
   if (!few.complete) return;
   trial.coarse = !few.ok();
   if (!trial.coarse) {
-    CheckResult close = look(trial.plan, now, kAll, stop);
+    CheckResult close = look(trial.plan, *now.robot, now, kAll, stop);
     if (close.complete) trial.check = std::move(close);
     return;
   }
@@ -170,7 +171,7 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   if (rest.free_end) end_there(trial.plan);
   if (now.given_robot) trial.plan.robot = *now.given_robot;
   // In time or not, the next two steps are looked at; a limit leaves the rest of them to the next call.
-  if (late) trial.check = look(trial.plan, now, two_steps_s(trial.plan), {});
+  if (late) trial.check = look(trial.plan, *now.robot, now, two_steps_s(trial.plan), {});
   if (!late || !late()) look_at_all(trial, now, late);
   return trial;
 }
@@ -182,7 +183,7 @@ Trial as_planned(const Rest& planned, const Now& now) {
   choose_swings(trial.plan, true, now.under_way);
   trial.exact = true;
   trial.ending = Ending::time_limit;
-  trial.check = look(trial.plan, now, two_steps_s(trial.plan), {});
+  trial.check = look(trial.plan, *now.robot, now, two_steps_s(trial.plan), {});
   trial.planned = true;
   return trial;
 }
@@ -191,7 +192,7 @@ void look_closely(Trial& trial, const Now& now) {
   if (!trial.coarse) return;
   const StopRequest late =
       now.deadline->limited() ? StopRequest([&] { return now.deadline->passed(); }) : StopRequest();
-  CheckResult close = look(trial.plan, now, std::numeric_limits<double>::infinity(), late);
+  CheckResult close = look(trial.plan, trial.plan.robot, now, std::numeric_limits<double>::infinity(), late);
   if (close.complete)
     trial.check = std::move(close);
   else  // a limit may be exceeded between the instants that have been looked at
