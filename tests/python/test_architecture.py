@@ -540,3 +540,17 @@ def test_functions_take_six_parameters_at_most() -> None:
                     continue
                 assert parameters(node) <= 6, f"{module}.{node.name} takes {parameters(node)} parameters"
     assert counted > 1000
+
+
+def test_the_verdict_of_a_check_is_called_for() -> None:
+    """``ok`` is a method: without its parentheses a test of it cannot fail."""
+    found = []
+    for file in sorted(Path(__file__).parent.glob("*.py")):
+        nodes = list(ast.walk(ast.parse(file.read_text())))
+        called = {id(node.func) for node in nodes if isinstance(node, ast.Call)}
+        found += [
+            f"{file.name}:{node.lineno}"
+            for node in nodes
+            if isinstance(node, ast.Attribute) and node.attr == "ok" and id(node) not in called
+        ]
+    assert not found
