@@ -11,7 +11,7 @@ the largest dM before and after, and the same where `balance` is above 0.08 of t
 
 from __future__ import annotations
 
-import sys
+import argparse
 
 import numpy as np
 import pinocchio as pin
@@ -57,8 +57,11 @@ def moments(plan: mp.Plan, robot: mp.Robot) -> tuple[np.ndarray, np.ndarray, np.
     return missing, swinging, np.hypot(np.linalg.norm(forces, axis=1), np.linalg.norm(turns, axis=1)) / weight
 
 
-def main(paths: list[str]) -> None:
-    for path in paths:
+def main() -> None:
+    """Print a line for each."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("paths", nargs="+", metavar="PLAN", help="File of a plan (.npz).")
+    for path in parser.parse_args().paths:
         plan = mp.Plan.load(path)
         missing, swinging, balance = moments(plan, plan.robot)
         constant = float((missing * swinging).sum() / (swinging * swinging).sum())
@@ -78,4 +81,4 @@ def _rms(values: np.ndarray) -> float:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

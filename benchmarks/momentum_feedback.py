@@ -10,7 +10,7 @@ for each: iterations, distance of the motion's CoM from the plan's and from what
 
 from __future__ import annotations
 
-import sys
+import argparse
 from typing import Any
 from unittest import mock
 
@@ -62,8 +62,11 @@ def tell(name: str, plan: mp.Plan, result: Any, given: Any) -> None:
     print(f"{text}, torque {result.certificate.measures['torque_use']:.3f}, cost {result.report.cost:.0f}", flush=True)
 
 
-def main(cases: list[str]) -> None:
-    for case in cases:
+def main() -> None:
+    """Print a line for each."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("cases", nargs="+", metavar="SCENE/ROBOT", help="Built-in names or files.")
+    for case in parser.parse_args().cases:
         plan = mp.plan(*case.split("/"), time_limit=12.0).plan
         first = solved(plan)
         tell(f"{case}, as it is", plan, first, None)
@@ -77,4 +80,4 @@ def main(cases: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
