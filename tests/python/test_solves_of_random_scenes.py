@@ -48,3 +48,25 @@ def test_where_one_jump_is_enough_there_is_one() -> None:
     """There were two, at twice the cost, where the interior point was left alone."""
     result, _ = _solved(20163, "humanoid44")
     assert _flights(result.plan) == 1
+
+
+def test_a_near_miss_of_a_restart_is_mended() -> None:
+    """A platform of 0.15 m, at first through its edge; what the penalty left beyond reach came to 2.65 in 2.8 s."""
+    corners = [[-2.0, -2.0, 0.0], [0.4, -2.0, 0.0], [0.4, 2.0, 0.0], [-2.0, 2.0, 0.0]]
+    floor = mp.model.Surface(name="floor", vertices_W=corners, end_effectors=["foot"])
+    up = mp.model.Surface(
+        name="platform",
+        vertices_W=[[0.4, -2.0, 0.15], [3.0, -2.0, 0.15], [3.0, 2.0, 0.15], [0.4, 2.0, 0.15]],
+        end_effectors=["foot"],
+    )
+    up.thickness = 0.15
+    scene = mp.Scene(
+        surfaces=[floor, up],
+        start=mp.model.Stance(contacts={"foot": "floor"}),
+        goal=mp.model.Stance(position_W=[1.2, 0.0, 0.15], contacts={"foot": "platform"}),
+    )
+    lines: list[str] = []
+    result = mp.plan(scene, "g1", logger=lambda _, line: lines.append(line))
+    assert result.report.status == mp.Status.solved and mp.check(result.plan).ok()
+    assert result.report.cost < 0.5
+    assert "violates clearance" in next(line for line in lines if line.startswith("plan of"))

@@ -191,7 +191,7 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial, Tuning t
       tuning.clear_swings = true;
       others.insert(others.begin(), Guess{last_, 0.0, true});
     }
-    ending = attempt(std::move(others), tuning);
+    ending = mend_last(attempt(std::move(others), tuning), tuning);
   }
   return ending;
 }
@@ -251,7 +251,7 @@ Ending Attempts::run(const Incumbent* warm) {
   if (options.restarts > 0) ending = hold_limits(ending, tuning);
   ending = restart(ending, sequence, tuning);
   if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);
-  return late(ending);
+  return late(mend_cheapest(ending));
 }
 
 }  // namespace mcplan::ddp

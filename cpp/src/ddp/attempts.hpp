@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "ddp/best_plan.hpp"
@@ -46,6 +47,8 @@ class Attempts {
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
   Ending attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning);
+  Ending mend_last(Ending ending, const Tuning& tuning);
+  Ending mend_cheapest(Ending ending);
   class Guesses;
   bool take_over(Guesses& guesses, int i, double lowest);
   Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
@@ -69,6 +72,13 @@ class Attempts {
   Incumbent last_;                 ///< of the last attempt, before its contacts were made exact
   std::vector<Violation> missed_;  ///< by it
   std::vector<double> mended_;     ///< costs of the near misses that were mended at once
+  struct NearMiss {
+    Incumbent at;
+    Tuning tuning;
+    std::vector<Violation> missed;
+  };
+  std::optional<NearMiss> cheapest_;  ///< of those that became too dear
+  bool too_dear_ = false;             ///< what was mended last
 };
 
 }  // namespace mcplan::ddp

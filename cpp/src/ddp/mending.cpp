@@ -17,20 +17,38 @@ bool missed_by_far(const std::vector<Violation>& missed) {
 
 }  // namespace
 
-/// An attempt, and where the interior point has ended with a near miss, the same motion further inside at once: that
-/// takes a few of its iterations, where another attempt takes hundreds and may end with a dearer plan.
+/// An attempt, and where the interior point has ended with a near miss, the same motion further inside at once.
 Ending Attempts::attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning) {
   const Ending ending = attempt(std::move(guesses), tuning);
-  if (ending != Ending::done || !search_.exact_contacts(tuning) || last_.sequence.empty()) return ending;
-  if (missed_.empty() || missed_by_far(missed_)) return ending;
+  return search_.exact_contacts(tuning) ? mend_last(ending, tuning) : ending;
+}
+
+/// What the last attempt has ended with, further inside, if it is a near miss: that takes a few iterations of the
+/// interior point, where another attempt takes hundreds and may end with a dearer plan.
+Ending Attempts::mend_last(Ending ending, const Tuning& tuning) {
+  if (ending != Ending::done || last_.sequence.empty() || missed_.empty() || missed_by_far(missed_)) return ending;
   const double cost = last_.evaluation.cost;
   const auto same = [&](double other) { return std::abs(cost - other) <= kSameOptimum * cost; };
   if (std::any_of(mended_.begin(), mended_.end(), same)) return ending;
   mended_.push_back(cost);
-  const Ending mended = mend(last_, tuning, missed_, kMendDearer * cost);
+  // What the penalty has left a little outside the interior point holds as it is.
+  const bool roughly = !search_.exact_contacts(tuning);
+  const std::vector<Violation> missed = roughly ? std::vector<Violation>() : missed_;
+  too_dear_ = false;
+  const Ending mended = mend(last_, tuning, missed, kMendDearer * cost);
+  if (roughly && too_dear_ && (!cheapest_ || cost < cheapest_->at.evaluation.cost))
+    cheapest_ = NearMiss{last_, tuning, missed};
   const bool its_own =
       mended == Ending::iteration_limit && search_.report().iterations < problem_.options.max_iterations;
   return its_own ? Ending::done : mended;
+}
+
+/// While there is no plan, the cheapest of the near misses of restarts whose plans would have been much dearer.
+Ending Attempts::mend_cheapest(Ending ending) {
+  const bool over = ending == Ending::done || ending == Ending::broke_down || ending == Ending::iteration_limit;
+  if (!over || best_->solved() || !cheapest_) return ending;
+  const Ending mended = mend(cheapest_->at, cheapest_->tuning, cheapest_->missed);
+  return mended == Ending::iteration_limit || mended == Ending::broke_down ? ending : mended;
 }
 
 /// A plan that misses limits by little does so since penalties settle slightly outside: the interior point goes on from
@@ -61,7 +79,8 @@ Ending Attempts::mend(Incumbent near, Tuning tuning, std::vector<Violation> miss
     if (ending == Ending::done) ending = search.polish_last(near, tuning, kMendTolerance);
     if (ending != Ending::done) return ending;
     near.evaluation = search_.evaluate(near, tuning);
-    if (near.evaluation.cost > dearest) break;
+    too_dear_ = near.evaluation.cost > dearest;
+    if (too_dear_) break;
     missed = finish(near, tuning);
     if (missed.empty() || missed_by_far(missed)) break;
   }
