@@ -441,6 +441,37 @@ def test_what_is_said_of_a_plan_is_what_the_checker_says_of_it():
     assert {mp.Status.solved, mp.Status.infeasible} <= statuses and mp.model.PlanFrom.recovery in kinds
 
 
+def test_what_a_start_is_forgiven_is_what_the_checker_forgives():
+    """The CoM is off and moves: steps that catch a push are planned in smaller boxes of reach, whose excess is not the plan's."""
+    plan = mp.plan("stairs_broad", "talos").plan
+    given, recoveries = 0, 0
+    for seed in (*range(40), 119, 122):
+        draws = np.random.default_rng(seed)
+        t = draws.uniform(0.05, 0.9) * plan.duration()
+        knot, contacts = state_at(plan, t)
+        angle, speed = draws.uniform(0.0, 2.0 * np.pi), draws.uniform(0.0, 0.6)
+        knot.com_velocity_W = knot.com_velocity_W + speed * np.array([np.cos(angle), np.sin(angle), 0.0])
+        knot.com_W = knot.com_W + plan.robot.com_height * draws.uniform(-0.06, 0.06, 3)
+        found = mp.replan(plan, t, knot, contacts=contacts, recovery_first=True)
+        report, checked = found.report, mp.check(found.plan)
+        assert (report.status == mp.Status.solved) == checked.ok(), seed
+        assert report.start_violations == checked.start, seed
+        if "could not be made exact" not in report.message:
+            assert report.kept_until_s == pytest.approx(checked.kept_until_s, abs=1e-9), seed
+        given += bool(checked.start)
+        recoveries += report.plan_from == mp.model.PlanFrom.recovery
+    assert given > 5 and recoveries > 2
+
+
+@pytest.mark.parametrize("scene", ["stairs_broad", "flat"])
+def test_without_any_time_there_is_a_plan(scene):
+    plan = mp.plan(scene, "talos").plan
+    for t in np.linspace(0.0, plan.duration(), 400, endpoint=False):
+        knot, contacts = state_at(plan, t)
+        found = mp.replan(plan, t, knot, contacts=contacts, time_limit=1e-5)
+        assert found.plan.phases and found.plan.at(0.0), t
+
+
 def test_a_limit_of_time_that_does_not_strike_changes_no_replan(flat):
     """Pushes that the plan's own sequence catches, that it misses by little, and that nothing catches."""
     statuses = set()

@@ -100,15 +100,16 @@ CheckResult look(const Plan& plan, const Robot& robot, const Now& now, double un
   return check(plan, plan.scene, robot, tolerances, stop, until_s);
 }
 
-/// The checker's word on all of it. What is seen to exceed limits already at few instants is not looked at closely:
-/// that is most of what is tried where little helps, and a close look takes as long as some iterations.
+/// The checker's word on all of it, held to the limits of the plan's robot. What is seen to exceed those that it was
+/// planned with already at few instants is not looked at closely: that is most of what is tried where little helps, and
+/// a close look takes as long as some iterations.
 void look_at_all(Trial& trial, const Now& now, const StopRequest& stop) {
   constexpr double kAll = std::numeric_limits<double>::infinity();
   CheckResult few = look(trial.plan, *now.robot, now, kAll, stop, kCoarser);
   if (!few.complete) return;
   trial.coarse = !few.ok();
   if (!trial.coarse) {
-    CheckResult close = look(trial.plan, *now.robot, now, kAll, stop);
+    CheckResult close = look(trial.plan, trial.plan.robot, now, kAll, stop);
     if (close.complete) trial.check = std::move(close);
     return;
   }
@@ -171,7 +172,7 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   if (rest.free_end) end_there(trial.plan);
   if (now.given_robot) trial.plan.robot = *now.given_robot;
   // In time or not, the next two steps are looked at; a limit leaves the rest of them to the next call.
-  if (late) trial.check = look(trial.plan, *now.robot, now, two_steps_s(trial.plan), {});
+  if (late) trial.check = look(trial.plan, trial.plan.robot, now, two_steps_s(trial.plan), {});
   if (!late || !late()) look_at_all(trial, now, late);
   return trial;
 }
@@ -195,8 +196,8 @@ void look_closely(Trial& trial, const Now& now) {
   CheckResult close = look(trial.plan, trial.plan.robot, now, std::numeric_limits<double>::infinity(), late);
   if (close.complete)
     trial.check = std::move(close);
-  else  // a limit may be exceeded between the instants that have been looked at
-    trial.check.kept_until_s = std::max(0.0, trial.check.kept_until_s - kCoarser * Tolerances().sample_s);
+  else  // in time or not, the next two steps are looked at
+    trial.check.kept_until_s = look(trial.plan, trial.plan.robot, now, two_steps_s(trial.plan), {}).kept_until_s;
   trial.coarse = false;
 }
 
@@ -217,6 +218,7 @@ bool misses_by_little(const Trial& trial, double tolerances) {
 bool hopeless(const Trial& trial) { return !trial.ok() && trial.evaluation.cost > kHopelessWithMore; }
 
 bool better(const Trial& one, const Trial& other) {
+  if (one.plan.phases.empty() != other.plan.phases.empty()) return other.plan.phases.empty();
   if (can_be_followed(one) != can_be_followed(other)) return can_be_followed(one);
   if (one.ok() != other.ok()) return one.ok();
   if (one.ok()) return one.evaluation.merit() < other.evaluation.merit();

@@ -70,7 +70,7 @@ Trial as_planned(const Rest& planned, const Now& now);
 /// Whether the next two steps keep all limits.
 bool can_be_followed(const Trial& trial);
 
-/// Whether a controller rather follows the one than the other.
+/// Whether a controller rather follows the one than the other: anything before a trial that time has left no plan of.
 bool better(const Trial& one, const Trial& other);
 
 }  // namespace mcplan::ddp
