@@ -7,6 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from mcplan._core import Plan, Robot, Scene, Status
 from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean, shown
@@ -65,6 +67,9 @@ def chosen_options(values: Mapping[str, Any]) -> tuple[Options, OnlineOptions]:
     Raises:
         InvalidOptions: No such option, a wrong type, or out of range.
     """
+    for short, name in SHORT.items():
+        if values.get(short) is not None and values.get(name) is not None:
+            raise InvalidOptions(short, f"must not be given with {name}, which is the same", shown(values[short]))
     given = {SHORT.get(name, name): value for name, value in values.items() if value is not None}
     own = option_names()
     known = [name for name in Options.__dataclass_fields__ if name not in WITHOUT]
@@ -146,7 +151,7 @@ def _typed(name: str, value: Any) -> Any:
     kind = type(getattr(OnlineOptions(), name))
     if kind is tuple:
         return _goals(name, value) if name == "goal" else _commands(name, value)
-    if kind is float and not isinstance(value, bool) and hasattr(value, "__float__"):
+    if kind is float and not isinstance(value, bool) and hasattr(value, "__float__") and np.ndim(value) == 0:
         return float(value)
     if not isinstance(value, kind):
         raise InvalidOptions(name, "must be a number" if kind is float else f"must be a {kind.__name__}", shown(value))

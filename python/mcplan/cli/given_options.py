@@ -74,6 +74,7 @@ def named_as_typed(*names: str, **options: str) -> Iterator[None]:
 
 def _named(found: InvalidInput, typed: dict[str, str]) -> InvalidInput:
     name, _, part = found.field.partition(".")
+    name = name.partition("[")[0]  # of several, one
     if found.source or name not in typed:
         return found
     return type(found)(f"{typed[name]} {part}".strip(), found.rule, found.value)

@@ -245,7 +245,7 @@ def summary(result: RunResult) -> dict[str, Any]:
 
     data = track_summary(result, None, None)
     last = result.plans[-1]
-    data["duration_s"] = result.online.kept_from_s + last.begins_s + last.plan.duration()
+    data["duration_s"] = last.begins_s + last.plan.duration()
     return {
         **data,
         **finite_items(result.online.as_dict()),

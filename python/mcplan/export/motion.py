@@ -131,7 +131,7 @@ def _recorded(recording: Recording, times_s: Array, rows: NDArray[np.int64], mod
     columns = [recording.joints.index(name) for name in list(model.names)[2:]]
     q = np.concatenate([recording.configurations[:, :7], recording.configurations[:, 7:][:, columns]], axis=1)
     v = np.concatenate([recording.velocities[:, :6], recording.velocities[:, 6:][:, columns]], axis=1)
-    times = recording.times_s
+    times = recording.times_s - recording.times_s[0]
     configurations, velocities = q[rows].copy(), v[rows].copy()
     for n in np.flatnonzero(np.abs(times[rows] - times_s) > 1e-9):
         k = min(max(int(np.searchsorted(times, times_s[n])) - 1, 0), len(times) - 2)

@@ -80,7 +80,7 @@ class Source:
     @cached_property
     def times_s(self) -> Array:
         """Instants [s]: from 0, at the rate, up to the end of the plan or the run."""
-        end = float(self.plan.duration()) if self.recording is None else float(self.recording.times_s[-1])
+        end = float(self.plan.duration()) if self.recording is None else float(np.ptp(self.recording.times_s))
         if self.rate_hz == 0.0:
             knots = np.asarray(self.plan.knot_times(), float)
             return np.minimum(knots[knots <= end + 1e-9], end)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,7 +33,7 @@ class Kept:
         keep_s: The last so many seconds are kept; nan: all.
 
     Attributes:
-        plans: Those that were followed while what is kept was recorded; times are those of the run.
+        plans: Those that were followed while what is kept was recorded.
     """
 
     def __init__(
@@ -45,12 +44,11 @@ class Kept:
         self.followed = FollowedReferences(min(steps, 2 * self.rows), desired)
         self.recorder = Recorder(plan, urdf_model, joints, self.followed)
         self.plans = [FollowedPlan(plan, 0.0, 0.0)]
-        self.dropped = 0  # control steps
 
     @property
     def from_s(self) -> float:
         """Time of the run at which what is kept begins."""
-        return self.dropped * self.dt_s
+        return self.recorder.dropped * self.dt_s
 
     def add(self, references: tuple[References, int], dynamics: RobotDynamics, acting: Acting) -> None:
         """A control step: row k of a window of references, the state, and what acts on the robot."""
@@ -62,13 +60,9 @@ class Kept:
         self.recorder.add(dynamics, acting)
 
     def recording(self, fell_at_s: float) -> Recording:
-        """What was recorded last. Its times begin at 0."""
+        """What was recorded last."""
         self._drop(max(self.recorder.count - self.rows, 0))
-        return self.recorder.finish(fell_at_s - self.from_s)
-
-    def plans_of_recording(self) -> tuple[FollowedPlan, ...]:
-        """Those that were followed, with the times of the recording; the first one may have begun before it."""
-        return tuple(replace(p, begins_s=p.begins_s - self.from_s, from_s=p.from_s - self.from_s) for p in self.plans)
+        return self.recorder.finish(fell_at_s)
 
     def _drop(self, steps: int) -> None:
         """Forget the oldest control steps."""
@@ -76,6 +70,5 @@ class Kept:
             return
         self.recorder.drop(steps)
         self.followed.drop(steps)
-        self.dropped += steps
         old = [n for n, following in enumerate(self.plans[1:]) if following.from_s <= self.from_s]
         del self.plans[: len(old)]

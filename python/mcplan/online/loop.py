@@ -360,7 +360,6 @@ class Loop:
             measures = with_touches(measures, recording.touches)
         measures = replace(
             measures,
-            completed_s=n * self.dt_s,
             qp_failures=self.failures,
             simulator_warnings=self.simulation.warnings,
             realtime_factor=(n + 1) * self.dt_s / wall_s,
@@ -371,7 +370,7 @@ class Loop:
             options, online = as_it_was(options, online, n * self.dt_s)
         tally = self.tally.measures(self.ground.felt, self._goal_off_m(n * self.dt_s))
         tally = replace(tally, kept_from_s=self.kept.from_s)
-        return RunResult(recording, measures, options, interrupted, tally, online, self.kept.plans_of_recording())
+        return RunResult(recording, measures, options, interrupted, tally, online, tuple(self.kept.plans))
 
     def _goal_off_m(self, now_s: float) -> float | None:
         """From the CoM to the goal, on the level [m]; None: none is walked to."""

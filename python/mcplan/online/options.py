@@ -10,6 +10,8 @@ from mcplan.errors import InvalidOptions
 
 #: Engines that replan.
 ENGINES = ("ddp", "rhp")
+#: Largest velocity that may be asked for [m/s, rad/s]: what is followed of it is as much as the robot can.
+FASTEST = 10.0
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,8 @@ class OnlineOptions:
             times = [row[0] for row in rows]
             ascending = times == sorted(times) and min(times, default=0.0) >= 0
             _require(name, "must have ascending times of 0 or more", rows, ascending)
+        slow = all(abs(part) <= FASTEST for row in self.command for part in row[1:])
+        _require("command", f"must have velocities of at most {FASTEST:g} m/s and rad/s", self.command, slow)
         both = {row[0] for row in self.command} & {row[0] for row in self.goal}
         _require("goal", "must not begin when a command does", self.goal, not both)
 

@@ -13,7 +13,7 @@ from mcplan.errors import InvalidInput, InvalidOptions
 from mcplan.extras import require
 from mcplan.tracking.disturbances import disturbed
 from mcplan.tracking.interruption import Interruption
-from mcplan.tracking.options import Options, Watch
+from mcplan.tracking.options import Options, Watch, require_watch
 from mcplan.tracking.runner import robot_for
 
 from .ending import length_of
@@ -64,6 +64,7 @@ def run(
             does not fit the plan.
     """
     require("mcplan.online", "sim", "mujoco", "pinocchio", "proxsuite")
+    require_watch(watch)
     options, online = options or Options(), online or OnlineOptions()
     _require_valid(plan, options, online, true_scene, steer)
     walker = robot_for(plan, robot)

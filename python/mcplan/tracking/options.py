@@ -9,10 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan._core import Plan
-from mcplan.errors import InvalidOptions
+from mcplan.errors import InvalidArgument, InvalidOptions, shown
 
 #: Sees a simulation: simulated time [s], configuration (nq,) in Pinocchio's order, the plan that is followed.
 Watch = Callable[[float, NDArray[np.float64], Plan], None]
+
+
+def require_watch(watch: Watch | None) -> None:
+    """Raise InvalidArgument where that is no function."""
+    if watch is not None and not callable(watch):
+        raise InvalidArgument("watch", "must be a function of time, configuration and plan", shown(watch))
+
 
 #: Least time step of MuJoCo [s]: 200 steps to a control step of the default length.
 SIMULATION_STEP_MIN_S = 1e-5

@@ -70,7 +70,7 @@ class Recorder:
     def __init__(self, plan: Plan, urdf_model: UrdfModel, joints: tuple[str, ...], desired: Desired) -> None:
         n, e, nj = desired.count, len(urdf_model.robot.end_effectors), len(joints)
         self.plan, self.urdf_model, self.joints, self.desired = plan, urdf_model, joints, desired
-        self.count = 0
+        self.count = self.dropped = 0
         self.configurations, self.velocities = np.zeros((n, 7 + nj)), np.zeros((n, 6 + nj))
         self.torques, self.com_W, self.momentum_W = np.zeros((n, nj)), np.zeros((n, 3)), np.zeros((n, 3))
         self.end_effectors_W, self.forces_W = np.zeros((n, e, 3)), np.zeros((n, e, 3))
@@ -87,18 +87,19 @@ class Recorder:
             self.end_effectors_W[n, end] = dynamics.end_effector_position_W(end)
         self.forces_W[n], self.contacts[n] = acting.forces_W, acting.in_contact
         self.assist[n], self.pushes_W[n] = acting.assist, acting.push_W
-        self.touches.add(n * self.desired.dt_s, acting.touches)
+        self.touches.add((self.dropped + n) * self.desired.dt_s, acting.touches)
         self.count = n + 1
 
     def drop(self, steps: int) -> None:
-        """Forget the first control steps: times count from the first one that is left."""
+        """Forget the first control steps."""
         for rows in (
             *(self.configurations, self.velocities, self.torques, self.com_W, self.momentum_W, self.end_effectors_W),
             *(self.forces_W, self.contacts, self.assist, self.pushes_W),
         ):
             rows[:-steps] = rows[steps:].copy()
-        self.touches.drop(steps * self.desired.dt_s)
         self.count -= steps
+        self.dropped += steps
+        self.touches.drop(self.dropped * self.desired.dt_s)
 
     def finish(self, fell_at_s: float) -> Recording:
         """The recording of the steps added."""
@@ -106,7 +107,7 @@ class Recorder:
         return Recording(
             plan=self.plan,
             joints=self.joints,
-            times_s=np.asarray(np.arange(n) * desired.dt_s, float),
+            times_s=np.asarray((self.dropped + np.arange(n)) * desired.dt_s, float),
             configurations=self.configurations[:n],
             velocities=self.velocities[:n],
             torques=self.torques[:n],

@@ -31,7 +31,7 @@ class Recording:
     Attributes:
         plan: What was tracked; it carries scene and robot.
         joints: Names of the nj joints, in the order of configuration[7:].
-        times_s: (n,) from 0.
+        times_s: (n,) from 0, or later if the end of the run alone was kept.
         configurations: (n, 7 + nj) base position [m], base quaternion xyzw, joint positions [rad]: Pinocchio's order.
         velocities: (n, 6 + nj) as Pinocchio has them: base linear and angular in the base's axes, joints [rad/s].
         torques: (n, nj) applied [N m].

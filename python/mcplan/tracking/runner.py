@@ -27,7 +27,7 @@ from .interruption import Interruption
 from .joint_references import JointReferences
 from .measures import at_torque_limit, measure, with_touches
 from .motion_references import motion_references
-from .options import Options, Watch
+from .options import Options, Watch, require_watch
 from .postures import postures_along
 from .recorder import Acting, Recorder
 from .references import References, references
@@ -95,6 +95,7 @@ def track(
     require("mcplan.tracking", "sim", "mujoco", "pinocchio", "proxsuite")
     options = options or Options()
     options.validate()
+    require_watch(watch)
     followed = _loaded(plan)
     plan = followed if isinstance(followed, Plan) else followed.plan
     options.require_pushes_within(plan.duration() + options.hold_s)

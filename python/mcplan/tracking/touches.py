@@ -53,21 +53,14 @@ class TouchLog:
             depth_m, force_N = max(before.depth_m, touch.depth_m), max(before.force_N, touch.force_N)
             self._open[key] = replace(before, end_s=time_s, depth_m=depth_m, force_N=force_N)
 
-    def drop(self, seconds: float) -> None:
-        """Forget what ended within the first seconds; times count from their end."""
-        late = [touch for touch in self._done if touch.end_s >= seconds]
-        self._done = [_earlier(touch, seconds) for touch in late]
-        still = {key: touch for key, touch in self._open.items() if touch.end_s >= seconds}
-        self._open = {key: _earlier(touch, seconds) for key, touch in still.items()}
+    def drop(self, before_s: float) -> None:
+        """Forget what had ended by then."""
+        self._done = [touch for touch in self._done if touch.end_s >= before_s]
+        self._open = {key: touch for key, touch in self._open.items() if touch.end_s >= before_s}
 
     def touches(self) -> tuple[Touch, ...]:
         """All of them in the order in which they began."""
         return tuple(sorted([*self._done, *self._open.values()], key=lambda touch: (touch.start_s, touch.links)))
-
-
-def _earlier(touch: Touch, seconds: float) -> Touch:
-    """The touch on a clock that began later."""
-    return replace(touch, start_s=max(touch.start_s - seconds, 0.0), end_s=touch.end_s - seconds)
 
 
 def hardest(touches: Sequence[Touch], terrain: bool) -> Touch | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -39,10 +40,18 @@ def recording_of(run: Run) -> Recording:
     return run if isinstance(run, Recording) else run.recording
 
 
-def last_time_s(run: AnyRun) -> float:
-    """The last instant of a run."""
+def times_between_s(run: AnyRun) -> tuple[float, float]:
+    """The first and the last instant of what was recorded of a run."""
     recording: Any = getattr(run, "recording", run)
-    return float(recording.times_s[-1])
+    return float(recording.times_s[0]), float(recording.times_s[-1])
+
+
+def from_zero(recording: Recording) -> Recording:
+    """The recording on a clock of its own, for what has to begin at 0."""
+    begin_s = float(recording.times_s[0])
+    touches = [replace(t, start_s=max(t.start_s - begin_s, 0.0), end_s=t.end_s - begin_s) for t in recording.touches]
+    times_s, fell_at_s = recording.times_s - begin_s, recording.fell_at_s - begin_s
+    return replace(recording, times_s=times_s, fell_at_s=fell_at_s, touches=tuple(touches))
 
 
 def ground_shift_of(run: AnyRun) -> float:
@@ -53,4 +62,4 @@ def ground_shift_of(run: AnyRun) -> float:
 
 def was_replanned(run: AnyRun) -> bool:
     """Whether other plans than the first one were followed, whose footholds are not those that it has."""
-    return len(getattr(run, "plans", ())) > 1
+    return len(getattr(run, "plans", ())) > 1 or times_between_s(run)[0] > 0.0

@@ -26,7 +26,7 @@ from mcplan.view.plan_drawing import (
 )
 from mcplan.view.robot_urdf import mesh_figure
 from mcplan.view.run_samples import RunFrames, frames_of, stretches_of
-from mcplan.view.runs import Run, ground_shift_of, recording_of
+from mcplan.view.runs import Run, from_zero, ground_shift_of, recording_of, was_replanned
 from mcplan.view.scene_drawing import draw_surfaces, raised, surface_drawings
 from mcplan.view.shapes import ellipsoid, tube
 from mcplan.view.stage import Stage, node
@@ -61,12 +61,13 @@ def show_run(run: Run) -> Page:
         MissingExtra: meshcat or Pinocchio is not installed.
         InvalidRobot: The robot's URDF cannot be read.
     """
-    recording, shift = recording_of(run), ground_shift_of(run)
+    recorded, shift = recording_of(run), ground_shift_of(run)
+    recording = from_zero(recorded)
     require("mcplan.view.show_run", "view", "meshcat", "pinocchio")
     measures = run.measures if isinstance(run, TrackingResult) else None
     plan = recording.plan
     scene, robot = recording.scene, recording.simulated_robot
-    replanned = len(getattr(run, "plans", ())) > 1
+    replanned = was_replanned(run)
     colours = end_effector_colours(robot)
     urdf_model = load_model(robot)
     frames = frames_of(recording, urdf_model, FRAME_RATE)
@@ -86,19 +87,22 @@ def show_run(run: Run) -> Page:
     legend += _draw_helpers(stage, frames, robot)
     duration = float(samples.times_s[-1])
     expected = _followed_contacts(recording) if replanned else contact_intervals(plan, plan.scene, robot)
+    knots_s = _contact_changes(recording) if replanned else plan.knot_times()
     within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
-    bars = timeline(scene, robot, Bars(samples.intervals, within, _events(recording)), colours, duration)
+    bars = timeline(
+        scene, robot, Bars(samples.intervals, within, _events(recording, recorded.fell_at_s)), colours, duration
+    )
     direction = camera_direction(extent)
     points, labels = annotated(stage, drawings, view_points(drawings, samples, robot), direction)
     return Page(
         title=f"{scene.name}, {robot.name}, simulated",
         payload=stage.payload(),
-        overlay=caption(f"{scene.name}, simulated", run_lines(recording, measures), legend) + bars,
+        overlay=caption(f"{scene.name}, simulated", run_lines(recorded, measures), legend) + bars,
         points_W=points,
         direction_W=direction,
         sun_W=sun_direction(extent),
         duration_s=duration,
-        knots_s=[t for t in plan.knot_times() if t < duration] + [duration],
+        knots_s=[t for t in knots_s if t < duration] + [duration],
         labels=labels,
     )
 
@@ -114,6 +118,12 @@ def _followed_contacts(recording: Recording) -> list[Interval]:
                 place = recording.end_effectors_plan_W[start, end]
                 found.append(Interval(end, int(surface), float(times[start]), until, place, np.eye(3)))
     return found
+
+
+def _contact_changes(recording: Recording) -> list[float]:
+    """The begin, and when contacts were to change by the plans that were followed."""
+    changes = np.flatnonzero(np.any(np.diff(recording.contacts_plan, axis=0) != 0, axis=1)) + 1
+    return [0.0, *(float(t) for t in recording.times_s[changes])]
 
 
 def _draw_com(stage: Stage, recording: Recording, frames: RunFrames, robot: Robot) -> None:
@@ -170,8 +180,8 @@ def _draw_helpers(stage: Stage, frames: RunFrames, robot: Robot) -> list[str]:
     return legend
 
 
-def _events(recording: Recording) -> list[tuple[float, float, str, str]]:
-    """Pushes, contacts that nobody planned, and the fall, for the timeline."""
+def _events(recording: Recording, fell_at_s: float) -> list[tuple[float, float, str, str]]:
+    """Pushes, contacts that nobody planned, and the fall, for the timeline; the fall with its time of the run."""
     times = recording.times_s
     pushed = np.linalg.norm(recording.pushes_W, axis=1)
     events = []
@@ -183,5 +193,5 @@ def _events(recording: Recording) -> list[tuple[float, float, str, str]]:
         until = min(max(touch.end_s, touch.start_s + shortest), float(times[-1]))
         events.append((touch.start_s, until, TOUCH, str(touch)))
     if recording.fell_at_s <= times[-1]:
-        events.append((0.995 * float(times[-1]), float(times[-1]), TEXT, f"fell at {recording.fell_at_s:.2f} s"))
+        events.append((0.995 * float(times[-1]), float(times[-1]), TEXT, f"fell at {fell_at_s:.2f} s"))
     return events

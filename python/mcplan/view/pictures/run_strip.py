@@ -14,7 +14,7 @@ from mcplan.errors import InvalidInput, shown_path
 from mcplan.extras import require
 from mcplan.files.outputs import whole_file
 from mcplan.view.colours import COM
-from mcplan.view.runs import AnyRun, last_time_s
+from mcplan.view.runs import AnyRun, times_between_s
 
 from .rendering import FIELD, Eye, Renderer
 from .rendering import Path as Line
@@ -202,17 +202,17 @@ def _laid_out(
 ) -> tuple[RunScene, list[int]]:
     """The run, and the indices of the instants asked for."""
     require("rendering a run", "sim", "mujoco", "pinocchio", "PIL")
-    last = last_time_s(run)
+    first, last = times_between_s(run)
     if isinstance(chosen, int):
         if chosen < 1:
             raise InvalidInput(name, "must be at least 1", str(chosen))
-        times = _with_pushes(np.linspace(0.0, last, chosen), run)
+        times = _with_pushes(np.linspace(first, last, chosen), run)
     else:
         times = np.asarray(list(chosen), float)
         if not len(times):
             raise InvalidInput(name, "needs at least one instant", "none")
         for i, t in enumerate(times):
-            if not 0.0 <= t <= last + 1e-9:
-                raise InvalidInput(f"{name}[{i}]", f"must lie in the run, from 0 to {last:.6g} s", f"{t:g}")
+            if not first - 1e-9 <= t <= last + 1e-9:
+                raise InvalidInput(f"{name}[{i}]", f"must lie in the run, from {first:.6g} to {last:.6g} s", f"{t:g}")
     scene = lay_out(run, RATE)
     return scene, [scene.nearest(float(t)) for t in times]

@@ -40,8 +40,8 @@ def finish(figure: Figure, axes: Any, recording: Recording, lines: Any = None) -
 
     for chart in axes[-1]:
         label(chart, x="time [s]")
-    last = max(float(recording.times_s[-1]), LEAST_S)
-    axes[0, 0].set_xlim(0.0, last * (1.004 if np.isfinite(recording.fell_at_s) else 1.0))
+    first, last = float(recording.times_s[0]), max(float(recording.times_s[-1]), LEAST_S)
+    axes[0, 0].set_xlim(first, last + (0.004 * (last - first) if np.isfinite(recording.fell_at_s) else 0.0))
     handles = lines.get_legend_handles_labels()[0] if lines is not None else []
     count = np.sum(recording.contacts_plan >= 0, axis=1)
     handles += [patch for number, patch in enumerate(support_patches()) if (count == number).any()]
