@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "ddp/polish/gradients.hpp"
+
 namespace mcplan::ddp::polish {
 
 using Eigen::ArrayXd;
@@ -127,14 +129,7 @@ void JointRows::lift(const Motion& motion, int k, const Pair& pair, const Standi
   if (!leg.has_sole) turns += leg.heading.cross(by.heading);
   Eigen::Matrix<double, 6, 1> by_pose;
   by_pose << leg.by_com * by.u + leg.mu * by.force, pose.axes_W.transpose() * turns;
-  if (pair.instant == 0) {
-    g.segment<3>(Layout::com()) += by_pose.head<3>();
-    for (int a = 0; a < at.axis_count(); ++a) g[at.angle(a)] += by_pose[3 + at.axes()[a]];
-  } else {
-    const auto moved = lifted.middleRows<6>(6 * (pair.instant - 1));
-    for (std::size_t c = 0; c < phase.moving.size(); ++c)
-      g[phase.moving[c]] += by_pose.dot(moved.col(static_cast<int>(c)));
-  }
+  add_by_pose({*fixed_, k, pair.instant, lifted}, by_pose, g);
   if (pair.limit == LegJoints::speed) add_velocity(motion, k, pair.instant, leg.by_com * by.velocity, g);
   // By the contact: the ankle moves with the end-effector, and so does a.
   const Vector3d by_line = -leg.mu * by.force, by_acting = by.acting + by_line;
@@ -146,11 +141,8 @@ void JointRows::lift(const Motion& motion, int k, const Pair& pair, const Standi
   const double slope = lambda ? 2.0 * motion.trajectory.u[k][at.stiffness(s.l)] : 1.0;
   g[phase.moving[s.stiffness]] += slope * by.force.dot(leg.lever);
   // By the legs that the hip moves with.
-  const Vector3d shifted = leg.limb.hip_shift * by.u;
-  for (int m : fixed_->problem().jointed.ends) g.segment<3>(at.end(m)) += shifted;
   const double fraction = static_cast<double>(pair.instant) / (motion.instants() - 1);
-  for (const Phase::Swinging& swinging : phase.swinging)
-    if (fixed_->problem().limits[swinging.l].limb.given()) g.segment<3>(swinging.stride) += fraction * shifted;
+  add_by_legs(*fixed_, k, fraction, leg.limb.hip_shift * by.u, g);
 }
 
 void JointRows::add(const Motion& motion, int k, const MatrixXd& lifted, int row, const ArrayXd& y, const ArrayXd& d,

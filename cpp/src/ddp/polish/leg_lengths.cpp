@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ddp/hip.hpp"
+#include "ddp/polish/gradients.hpp"
 
 namespace mcplan::ddp::polish {
 
@@ -83,22 +84,11 @@ void LegLengths::add(const Motion& motion, int k, const MatrixXd& lifted, int ro
     // By the CoM and the angles of the base at that instant, and these by z.
     Eigen::Matrix<double, 6, 1> by_pose;
     by_pose << stands.by_com * stands.direction, pose.axes_W.transpose() * stands.from_com_W.cross(stands.direction);
-    if (which.instant == 0) {
-      by.segment<3>(Layout::com()) = by_pose.head<3>();
-      for (int a = 0; a < at.axis_count(); ++a) by[at.angle(a)] = by_pose[3 + at.axes()[a]];
-    } else {
-      const auto moved = lifted.middleRows<6>(6 * (which.instant - 1));
-      for (std::size_t c = 0; c < phase.moving.size(); ++c)
-        by[phase.moving[c]] = by_pose.dot(moved.col(static_cast<int>(c)));
-    }
+    add_by_pose({*fixed_, k, which.instant, lifted}, by_pose, by);
     // By the end-effectors themselves.
-    const double shift = stands.limit.limb.hip_shift;
     by.segment<3>(at.end(phase.standing[which.contact].l)) -= stands.direction;
-    for (int m : problem.jointed.ends) by.segment<3>(at.end(m)) += shift * stands.direction;
     const double fraction = static_cast<double>(which.instant) / (motion.instants() - 1);
-    for (const Phase::Swinging& swinging : phase.swinging)
-      if (problem.limits[swinging.l].limb.given())
-        by.segment<3>(swinging.stride) += shift * fraction * stands.direction;
+    add_by_legs(*fixed_, k, fraction, stands.limit.limb.hip_shift * stands.direction, by);
   }
   of.weighted.noalias() = of.by * d.segment(row, count).matrix().asDiagonal();
   model.h.noalias() += of.weighted.lazyProduct(of.by.transpose());
