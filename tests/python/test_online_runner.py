@@ -281,11 +281,11 @@ def test_pages_and_plots_show_what_was_followed(plan, tmp_path):
 
 
 def test_plans_with_needless_steps_are_longer_than_what_is_left(plan):
-    from mcplan.online.loop import _longer
+    from mcplan.online.choice import longer
 
     t = 0.5 * (plan.knot_times()[-4] + plan.knot_times()[-3])  # three phases are left
-    assert not _longer(plan, plan, 0.0)
-    assert _longer(plan, plan, t) and len(plan.phases) > 4
+    assert not longer(plan, plan, 0.0)
+    assert longer(plan, plan, t) and len(plan.phases) > 4
 
 
 def stairs(edit, planned):

@@ -290,7 +290,9 @@ class Given:
     def of(cls, problem: Problem) -> Given:
         """The problem as it is now."""
         blocks = list(problem._blocks)  # first: their variables are there before them
-        return cls(list(problem._groups.items()), blocks)
+        # Another thread may add to them while pairs are made, each of which may set off a collection of garbage; not so
+        # while a dictionary is copied.
+        return cls(list(problem._groups.copy().items()), blocks)
 
     @property
     def groups(self) -> list[Variables]:

@@ -21,6 +21,7 @@ from mcplan.tracking.runner import CONTACT_RATIO, posture_at
 from mcplan.tracking.sensors import Sensors
 from mcplan.tracking.separation import Separation
 
+from .choice import longer, misses_at_once
 from .contacts import ContactFilter
 from .ending import fallen, length_of
 from .goals import Aim
@@ -28,7 +29,7 @@ from .kept import Kept
 from .known_ground import KnownGround
 from .measures import Tally
 from .options import OnlineOptions
-from .pacing import Pace, steps_left
+from .pacing import Pace, distances, steps_left
 from .planner import Planner, Update
 from .reach import lifting, widened
 from .result import FollowedPlan, RunResult
@@ -57,20 +58,11 @@ SAME_PLACE_M = 0.05
 
 @dataclass
 class Pending:
-    """An update, when it may be taken over, which is when its computation is over, and whether it has needless steps."""
+    """An update, when it may be taken over, which is when its computation is over, and whether it is better not followed."""
 
     update: Update
     ready_s: float
-    longer: bool
-
-
-def _longer(plan: Plan, under_way: Plan, t: float) -> bool:
-    """Whether a plan has more phases than are left of the one under way, and one in which a late foot lands.
-
-    Where nothing pushes the robot, another step on the spot, put in again and again, would keep it from its goal.
-    """
-    left = len(under_way.phases) - int(under_way.at(min(t, float(under_way.duration()))).phase)
-    return len(plan.phases) > left + 1
+    needless: bool
 
 
 class Loop:
@@ -246,8 +238,11 @@ class Loop:
         self.pace.asked(now_s)
         latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
         self.tally.computed(update.took_s, latency_s, update.status, reason)
-        longer = few and update.usable and update.plan is not None and _longer(update.plan, under_way.plan, t)
-        self.pending = Pending(update, now_s + latency_s, longer)
+        off_m = distances(under_way.plan, t, com_W, velocity_W)
+        on_plan = off_m[0] < self.online.com_margin_m and off_m[1] < self.online.capture_margin_m
+        needless = few and update.usable and update.plan is not None and longer(update.plan, under_way.plan, t)
+        needless |= few and on_plan and misses_at_once(update, t, self.online.period_s)
+        self.pending = Pending(update, now_s + latency_s, needless)
 
     def _choose_reach(self) -> None:
         """Under a command to a side plan with wide reach first: boxes bound strides there more than joints do."""
@@ -313,8 +308,8 @@ class Loop:
         """Follow the update that waits, if its computation is over."""
         if self.pending is None or now_s < self.pending.ready_s - 1e-9:
             return
-        update, longer, self.pending = self.pending.update, self.pending.longer, None
-        if longer:
+        update, needless, self.pending = self.pending.update, self.pending.needless, None
+        if needless:
             return
         if not update.usable or update.plan is None:
             self.failing_s = min(self.failing_s, update.begins_s)
