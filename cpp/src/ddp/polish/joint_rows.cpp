@@ -163,6 +163,7 @@ void JointRows::add(const Motion& motion, int k, const MatrixXd& lifted, int row
 
 void JointRows::along(int k, const VectorXd& dz, int row, ArrayXd& out) const {
   const OfPhase& of = phases_[k];
+  if (of.pairs.empty()) return;
   out.segment(row, of.by.cols()).matrix().noalias() = of.by.transpose() * dz;
 }
 
