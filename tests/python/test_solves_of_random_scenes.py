@@ -70,3 +70,9 @@ def test_a_near_miss_of_a_restart_is_mended() -> None:
     assert result.report.status == mp.Status.solved and mp.check(result.plan).ok()
     assert result.report.cost < 0.5
     assert "violates clearance" in next(line for line in lines if line.startswith("plan of"))
+
+
+def test_a_surface_that_is_nearly_level_is_none_that_moments_turn_about() -> None:
+    """One patch is tilted by 4e-5 rad: moments about the vertical had 2e-6 N m beside its normal."""
+    result, _ = _solved(814, "humanoid44")
+    assert result.report.cost < 0.1

@@ -1,5 +1,6 @@
 #include "ddp/moment_limits.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,9 +15,10 @@ double torsion_arm(const Problem& problem, int l, int surface) {
 }
 
 bool about_normal(const Problem& problem, const Layout::Moment& moment, int surface) {
-  constexpr double kAlong = 1.0 - 1e-9;
+  // What 100 N m have beside the normal is then within the checker's tolerance of 1 uN m.
+  constexpr double kBesideNormal = 1e-8;
   return problem.model == Model::lipm ||
-         std::abs(moment.direction_W.dot(problem.polygons[surface].normal_W())) >= kAlong;
+         moment.direction_W.cross(problem.polygons[surface].normal_W()).norm() <= kBesideNormal;
 }
 
 }  // namespace mcplan::ddp
