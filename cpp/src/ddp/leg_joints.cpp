@@ -65,26 +65,30 @@ double LegJoints::value(Row row) const {
   return axis(row).dot(from_joint(row).cross(leg_.force)) / leg_.limb.upper;
 }
 
-double LegJoints::limit(Row row) const {
-  const LimbLimits& limb = leg_.limb;
-  const double scale = kJointMargin / limb.upper;
+double LegJoints::limit_of(const LimbLimits& limb, Row row) {
   switch (row) {
     case knee:
-      return scale * limb.knee_torque;
+      return limb.knee_torque;
     case hip_roll:
-      return scale * limb.hip_torque[0];
+      return limb.hip_torque[0];
     case hip_pitch:
-      return scale * limb.hip_torque[1];
+      return limb.hip_torque[1];
     case ankle_roll:
-      return scale * limb.ankle_torque[0];
+      return limb.ankle_torque[0];
     case ankle_pitch:
-      return scale * limb.ankle_torque[1];
-    case length:
-      return VirtualLeg::max_length(leg_.links);
+      return limb.ankle_torque[1];
     case speed:
+      return limb.knee_speed;
+    case length:
       break;
   }
-  return stretched_.lever() * kJointMargin * limb.knee_speed;
+  return std::numeric_limits<double>::infinity();
+}
+
+double LegJoints::limit(Row row) const {
+  if (row == length) return VirtualLeg::max_length(leg_.links);
+  const double planned = kJointMargin * limit_of(leg_.limb, row);
+  return row == speed ? stretched_.lever() * planned : planned / leg_.limb.upper;
 }
 
 LegJoints::Slopes LegJoints::torque_slopes(Row row) const {
@@ -115,16 +119,19 @@ LegJoints::Slopes LegJoints::torque_slopes(Row row) const {
 }
 
 LegJoints::Slopes LegJoints::slopes(Row row, double sign) {
+  if (!differentiated_) {
+    bent_.differentiate();
+    stretched_.differentiate();
+    differentiated_ = true;
+  }
   Slopes by;
   if (row == length) {
     by.u = sign * stretched_.direction();
   } else if (row == speed) {
-    stretched_.differentiate();
     by.velocity = sign * stretched_.direction();
     by.u = sign * stretched_.direction_by_u().transpose() * leg_.velocity -
            kJointMargin * leg_.limb.knee_speed * stretched_.lever_by_length() * stretched_.direction();
   } else {
-    bent_.differentiate();
     by = torque_slopes(row);
     for (Vector3d* slope : {&by.u, &by.heading, &by.up, &by.force, &by.acting}) *slope *= sign / leg_.limb.upper;
   }

@@ -52,6 +52,9 @@ class LegJoints {
 
   explicit LegJoints(const StandingLeg& leg);
 
+  /// The torque or speed that a limb has for a row, infinite where it has none; of lengths there is none.
+  static double limit_of(const LimbLimits& limb, Row row);
+
   double value(Row row) const;
   double limit(Row row) const;  ///< infinite: none
 
@@ -74,6 +77,7 @@ class LegJoints {
 
   const StandingLeg& leg_;
   VirtualLeg bent_, stretched_;  ///< shorter by the margin, and longer
+  bool differentiated_ = false;
   Eigen::Vector3d roll_;
   double across_length_;
 };

@@ -98,11 +98,8 @@ class RunResult(TrackingResult):
             )
         title = f"{recording.plan.scene.name}  {recording.simulated_robot.name}  {ended} ({how})"
         rows = [row for row in rows_of(self) if row[0] != "base at the end"]
-        kept = (
-            [("recorded", f"from {self.online.kept_from_s:.2f} s on, as is what is measured")]
-            if self.online.kept_from_s > 0.0
-            else []
-        )
+        kept_from_s = self.online.kept_from_s
+        kept = [("recorded", f"from {kept_from_s:.2f} s on, as is what is measured")] if kept_from_s > 0.0 else []
         return as_text(title, [*kept, *rows[:-2], *online_rows(self.online), *rows[-2:]])
 
 

@@ -15,27 +15,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Whether a limb has a limit of that kind.
-bool limited(const LimbLimits& limb, LegJoints::Row row) {
-  switch (row) {
-    case LegJoints::knee:
-      return std::isfinite(limb.knee_torque);
-    case LegJoints::hip_roll:
-      return std::isfinite(limb.hip_torque[0]);
-    case LegJoints::hip_pitch:
-      return std::isfinite(limb.hip_torque[1]);
-    case LegJoints::ankle_roll:
-      return std::isfinite(limb.ankle_torque[0]);
-    case LegJoints::ankle_pitch:
-      return std::isfinite(limb.ankle_torque[1]);
-    case LegJoints::speed:
-      return std::isfinite(limb.knee_speed);
-    case LegJoints::length:
-      break;
-  }
-  return false;
-}
-
 constexpr LegJoints::Row kRows[] = {LegJoints::knee,       LegJoints::hip_roll,    LegJoints::hip_pitch,
                                     LegJoints::ankle_roll, LegJoints::ankle_pitch, LegJoints::speed};
 
@@ -52,7 +31,7 @@ JointRows::JointRows(const FixedSequence& fixed, const Pendulum& pendulum, bool 
       for (int i = 0; i < instants; ++i)
         for (const LegJoints::Row row : kRows)
           // How fast the knee turns where the motion begins is given.
-          if (limited(limb, row) && !(row == LegJoints::speed && k == 0 && i == 0))
+          if (std::isfinite(LegJoints::limit_of(limb, row)) && !(row == LegJoints::speed && k == 0 && i == 0))
             phases_[k].pairs.push_back({static_cast<int>(c), i, row});
     }
     phases_[k].by.setZero(fixed.size(k), count(k));
@@ -151,10 +130,15 @@ void JointRows::add(const Motion& motion, int k, const MatrixXd& lifted, int row
   if (of.pairs.empty()) return;
   of.by.setZero();
   each_leg(motion, k, [&](const StandingLeg& leg, LegJoints& joints, int begin, int end) {
-    for (int j = begin; j < end; ++j)
-      for (int side = 0; side < 2; ++side)
-        lift(motion, k, of.pairs[j], leg, joints.slopes(of.pairs[j].limit, side == 0 ? 1.0 : -1.0), lifted,
-             of.by.col(2 * j + side));
+    for (int j = begin; j < end; ++j) {
+      const LegJoints::Row limit = of.pairs[j].limit;
+      lift(motion, k, of.pairs[j], leg, joints.slopes(limit, 1.0), lifted, of.by.col(2 * j));
+      // The limit of a torque does not depend on the motion, that of a speed does.
+      if (limit == LegJoints::speed)
+        lift(motion, k, of.pairs[j], leg, joints.slopes(limit, -1.0), lifted, of.by.col(2 * j + 1));
+      else
+        of.by.col(2 * j + 1) = -of.by.col(2 * j);
+    }
   });
   of.weighted.noalias() = of.by * d.segment(row, count(k)).matrix().asDiagonal();
   model.h.noalias() += of.weighted * of.by.transpose();

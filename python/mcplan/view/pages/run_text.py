@@ -13,7 +13,7 @@ def run_lines(recording: Recording, measures: Measures | None) -> list[str]:
     robot = recording.simulated_robot
     first, last = float(recording.times_s[0]), float(recording.times_s[-1])
     end = f"fell at {recording.fell_at_s:.2f} s" if np.isfinite(recording.fell_at_s) else f"{last:.2f} s without a fall"
-    lines = [f"{robot.name}: {end}" + (f"; from {first:.2f} s on" if first > 0.0 else "")]
+    lines = [f"{robot.name}: {end}" + (f"; recorded from {first:.2f} s on" if first > 0.0 else "")]
     miss = np.linalg.norm(recording.com_W - recording.com_plan_W, axis=1)
     rms, largest = float(np.sqrt(np.mean(miss**2))), float(miss.max())
     if measures is not None:

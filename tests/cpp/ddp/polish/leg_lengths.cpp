@@ -2,10 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "ddp/polish/interior_point.hpp"
+#include "ddp/polish/legged_walk.hpp"
 #include "ddp/polish/start_slack.hpp"
-#include "ddp/stepping_sequence.hpp"
-#include "ddp/support.hpp"
 
 namespace {
 
@@ -13,34 +11,9 @@ using namespace support;
 using Eigen::Vector3d;
 using namespace mcplan::ddp;
 
-/// Feet at the end of legs of two links, of which the CoM's height uses all but so much.
-mcplan::Robot with_legs(double spare, double shift) {
-  mcplan::Robot robot = scenes::humanoid44();
-  for (const char* name : {"right_foot", "left_foot"}) {
-    mcplan::EndEffector& foot = robot.end_effectors[robot.end_effector_index(name)];
-    foot.limb.hip_B = {0.0, foot.nominal_B.y(), -0.05};
-    foot.limb.hip_shift = shift;
-    foot.limb.ankle = {0.01, 0.0, 0.06};
-    const double length = (foot.limb.hip_B - foot.nominal_B - foot.limb.ankle).norm() + spare;
-    foot.limb.upper = foot.limb.lower = 0.5 * length / std::sqrt(1.0 - 0.15 * 0.15);
-  }
-  return robot;
-}
-
-/// A walk on a level floor in given steps, solved.
-struct Walk {
-  explicit Walk(const mcplan::Robot& robot) : problem(scenes::flat(0.5), robot, phases(10)) {
-    sequence = stepping_sequence(problem, 0);
-    trajectory = problem.initial_guess(sequence);
-    polish::InteriorPoint solver(problem, sequence, problem.tuning());
-    polish::Settings settings;
-    settings.max_iterations = 200;
-    outcome = solver.solve(trajectory, settings, nullptr);
-  }
-  Problem problem;
-  ContactSequence sequence;
-  Trajectory trajectory;
-  polish::Outcome outcome;
+/// In steps that nothing but the length of legs bounds.
+struct Walk : LeggedWalk {
+  explicit Walk(const mcplan::Robot& robot) : LeggedWalk(robot, 0.5, false) {}
 };
 
 }  // namespace
