@@ -75,7 +75,6 @@ class Attempts {
   struct NearMiss {
     Incumbent at;
     Tuning tuning;
-    std::vector<Violation> missed;
   };
   std::optional<NearMiss> cheapest_;  ///< of those that became too dear
   bool too_dear_ = false;             ///< what was mended last

@@ -36,8 +36,7 @@ Ending Attempts::mend_last(Ending ending, const Tuning& tuning) {
   const std::vector<Violation> missed = roughly ? std::vector<Violation>() : missed_;
   too_dear_ = false;
   const Ending mended = mend(last_, tuning, missed, kMendDearer * cost);
-  if (roughly && too_dear_ && (!cheapest_ || cost < cheapest_->at.evaluation.cost))
-    cheapest_ = NearMiss{last_, tuning, missed};
+  if (roughly && too_dear_ && (!cheapest_ || cost < cheapest_->at.evaluation.cost)) cheapest_ = NearMiss{last_, tuning};
   const bool its_own =
       mended == Ending::iteration_limit && search_.report().iterations < problem_.options.max_iterations;
   return its_own ? Ending::done : mended;
@@ -47,7 +46,7 @@ Ending Attempts::mend_last(Ending ending, const Tuning& tuning) {
 Ending Attempts::mend_cheapest(Ending ending) {
   const bool over = ending == Ending::done || ending == Ending::broke_down || ending == Ending::iteration_limit;
   if (!over || best_->solved() || !cheapest_) return ending;
-  const Ending mended = mend(cheapest_->at, cheapest_->tuning, cheapest_->missed);
+  const Ending mended = mend(cheapest_->at, cheapest_->tuning);
   return mended == Ending::iteration_limit || mended == Ending::broke_down ? ending : mended;
 }
 
