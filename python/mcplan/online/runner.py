@@ -105,6 +105,8 @@ def _require_valid(
         true_scene.validate()
     elif not np.isnan(online.told_at_s):
         raise InvalidOptions(
-            "told_at_s", "must be given with true_scene, which the planner is told", f"{online.told_at_s:g}"
+            "told_at_s",
+            "must be given with a true scene (the ground that is simulated), which the planner is told",
+            f"{online.told_at_s:g}",
         )
     options.require_pushes_within(length_of(plan, options, online, steer is not None))
