@@ -7,7 +7,7 @@ import mcplan as mp
 from mcplan.errors import InvalidInput
 from mcplan.online.known_ground import KnownGround
 from mcplan.online.options import OnlineOptions
-from mcplan.online.true_scene import NOBODY, as_told, require_known
+from mcplan.online.true_scene import NOBODY, as_told, require_goal, require_known
 
 
 def scene_without(*names, planned=None):
@@ -51,6 +51,14 @@ def test_ground_that_does_not_fit_the_plan_is_refused_by_name():
     light.gravity = 1.62
     with pytest.raises(InvalidInput, match=r"true_scene\.gravity: must be that of the plan, 9\.8.*1\.62"):
         require_known(light, planned)
+
+
+def test_a_planner_is_told_of_no_ground_without_its_goal():
+    planned = mp.load_scene("stairs_broad")
+    on = next(iter(dict(planned.goal.contacts).values()))
+    require_goal(scene_without("tread_1"), planned)
+    with pytest.raises(InvalidInput, match=rf"true_scene\.surfaces: must have '{on}', on which .* stands at the goal"):
+        require_goal(scene_without(on), planned)
 
 
 @pytest.mark.slow

@@ -39,6 +39,27 @@ def test_a_run_of_one_instant_has_one_frame_at_rest():
     assert not frames.samples.com_velocity_W.any() and not frames.samples.velocities_W.any()
 
 
+def test_surfaces_are_those_of_the_plan_by_name_whatever_ground_is_simulated():
+    recording = recordings.walking()
+    planned = recording.plan.scene.__copy__()
+    other = planned.surfaces[0].__copy__()
+    other.name = "elsewhere"
+    other.vertices_W = np.asarray(other.vertices_W) + [50.0, 0.0, 1.0]
+    planned.surfaces = [*planned.surfaces, other]
+    plan = recording.plan.__copy__()
+    plan.scene = planned
+    urdf_model = load_model(recording.simulated_robot)
+    expected = [
+        (i.end_effector, i.surface, i.start_s) for i in frames_of(recording, urdf_model, 30.0).samples.intervals
+    ]
+    for surfaces in (planned.surfaces[::-1], planned.surfaces[:1]):
+        true = planned.__copy__()
+        true.surfaces = surfaces
+        run = dataclasses.replace(recording, plan=plan, true_scene=true)
+        found = frames_of(run, urdf_model, 30.0).samples.intervals
+        assert [(i.end_effector, i.surface, i.start_s) for i in found] == expected
+
+
 def test_stretches_are_all_of_the_true_and_nothing_else():
     active = np.random.default_rng(3).random(200) < 0.6
     again = np.zeros_like(active)

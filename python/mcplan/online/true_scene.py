@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mcplan._core import Scene, Surface
 from mcplan.errors import InvalidInput, shown
+from mcplan.tracking.recording import numbered_as
 
 #: Who may touch a surface that is not there: surfaces keep their numbers, which plans go by.
 NOBODY = "nobody"
@@ -29,11 +30,23 @@ def require_known(true: Scene, planned: Scene) -> None:
         raise InvalidInput("true_scene.gravity", f"must be that of the plan, {planned.gravity:g}", f"{true.gravity:g}")
 
 
+def require_goal(true: Scene, planned: Scene) -> None:
+    """Raise InvalidInput where a planner that is told of the ground would have no goal any more.
+
+    Args:
+        true: What is simulated, and told.
+        planned: What the first plan knows, the goal on it.
+    """
+    there = {surface.name for surface in true.surfaces}
+    for end, name in dict(planned.goal.contacts).items():
+        if name not in there:
+            rule = f"must have '{name}', on which {end} stands at the goal, or the planner must not be told (told_at_s)"
+            raise InvalidInput("true_scene.surfaces", rule)
+
+
 def as_told(true: Scene, planned: Scene) -> Scene:
     """The plan's scene with its surfaces as they are; nobody may touch those that are not there."""
-    there = {surface.name: surface for surface in true.surfaces}
-    told = planned.__copy__()
-    told.surfaces = [there.get(surface.name) or _without(surface) for surface in planned.surfaces]
+    told = numbered_as(planned, true, _without)
     told.validate()
     return told
 

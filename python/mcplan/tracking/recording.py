@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,7 +18,7 @@ from .run_files import RUN, Arrays, Header, columns_of, load_run
 from .touches import Touch
 
 if TYPE_CHECKING:
-    from mcplan._core import Plan, Robot, Scene
+    from mcplan._core import Plan, Robot, Scene, Surface
 
 Array = NDArray[np.float64]
 
@@ -84,6 +85,11 @@ class Recording:
         return self.true_scene if self.true_scene is not None else self.plan.scene
 
     @property
+    def scene_by_plan(self) -> Scene:
+        """The scene that was simulated, its surfaces numbered as in the plan; what was not there is as the plan has it."""
+        return self.plan.scene if self.true_scene is None else numbered_as(self.plan.scene, self.true_scene)
+
+    @property
     def simulated_robot(self) -> Robot:
         """The robot that was simulated."""
         return self.robot if self.robot is not None else self.plan.robot
@@ -112,6 +118,20 @@ class Recording:
             FileNotFoundError: There is no such file.
         """
         return load_run(path, {RUN: recording_from})
+
+
+def numbered_as(planned: Scene, true: Scene, absent: Callable[[Surface], Surface] = lambda surface: surface) -> Scene:
+    """The planned scene with each surface as it truly is, by name.
+
+    Args:
+        planned: Whose numbers surfaces keep: plans and recordings go by them.
+        true: Where surfaces are; it may lack some.
+        absent: What becomes of a surface that it lacks.
+    """
+    there = {surface.name: surface for surface in true.surfaces}
+    numbered = planned.__copy__()
+    numbered.surfaces = [there.get(surface.name) or absent(surface) for surface in planned.surfaces]
+    return numbered
 
 
 def recording_from(header: Header, arrays: Arrays) -> Recording:

@@ -60,7 +60,7 @@ def frames_of(recording: Recording, urdf_model: UrdfModel, rate_hz: float) -> Ru
         urdf_model: Model of its robot; soles are rotated as its configurations say.
         rate_hz: Frames in a second.
     """
-    scene = recording.scene
+    scene = recording.scene_by_plan
     chosen = frame_indices(recording.times_s, rate_hz)
     configurations = recording.configurations[chosen]
     rotation_WB, soles_W = _rotations(urdf_model, configurations)

@@ -89,9 +89,8 @@ def show_run(run: Run) -> Page:
     expected = _followed_contacts(recording) if replanned else contact_intervals(plan, plan.scene, robot)
     knots_s = _contact_changes(recording) if replanned else plan.knot_times()
     within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
-    bars = timeline(
-        scene, robot, Bars(samples.intervals, within, _events(recording, recorded.fell_at_s)), colours, duration
-    )
+    contacts = Bars(samples.intervals, within, _events(recording, recorded.fell_at_s))
+    bars = timeline(recording.scene_by_plan, robot, contacts, colours, duration)
     direction = camera_direction(extent)
     points, labels = annotated(stage, drawings, view_points(drawings, samples, robot), direction)
     return Page(
