@@ -21,6 +21,9 @@ def test_names_become_fields_and_the_rest_stays():
 def test_pushes_are_objects_or_four_numbers():
     pushes = make_options({"pushes": [Push(40.0, 0.2, 3.0), (25, 0.1, 1, -90)]}).pushes
     assert pushes == (Push(40.0, 0.2, 3.0), Push(25.0, 0.1, 1.0, -90.0))
+    one = (40.0, 0.2, 3.0, 90.0)
+    for given in (Push(*one), one, list(one), np.array(one), [one], np.array([one])):
+        assert make_options({"pushes": given}).pushes == (Push(*one),)
 
 
 @pytest.mark.parametrize(
@@ -37,7 +40,8 @@ def test_pushes_are_objects_or_four_numbers():
         ({"seed": True}, "seed: must be of type int, got True"),
         ({"assist": 1}, "assist: must be of type bool, got 1"),
         ({"pushes": 40.0}, "pushes: must be a list, got 40.0"),
-        ({"pushes": [40.0, 0.2, 3.0, 90.0]}, "pushes[0]: must be a list, got 40.0"),
+        ({"pushes": [40.0, 0.2]}, "pushes[0]: must be force_N, duration_s, at_s, direction_deg, got 2 values"),
+        ({"pushes": [40.0, (25, 0.1, 1, -90)]}, "pushes[0]: must be force_N, duration_s, at_s, direction_deg, got 2"),
         ({"pushes": [(40.0, 0.2)]}, "pushes[0]: must be force_N, duration_s, at_s, direction_deg, got 2 values"),
         ({"pushes": [(40.0, "x", 3.0, 0.0)]}, 'pushes[0].duration_s: must be a number, got "x"'),
         ({"pushes": [(40.0, -1.0, 3.0, 0.0)]}, "pushes[0].duration_s: must not be negative, got -1.0"),

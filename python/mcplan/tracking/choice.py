@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any
+
+import numpy as np
 
 from mcplan.errors import InvalidOptions, did_you_mean, shown
 
@@ -12,7 +14,7 @@ from .options import Gains, Options, Push
 
 
 def make_options(values: Mapping[str, Any], base: Options | None = None) -> Options:
-    """Options from names and values; `gains` as Gains or by name, `pushes` as Push or four numbers each.
+    """Options from names and values; `gains` as Gains or by name, `pushes` as Push or four numbers, one or several.
 
     Raises:
         InvalidOptions: No such option (the message lists those that exist), a wrong type, or out of range.
@@ -26,7 +28,9 @@ def make_options(values: Mapping[str, Any], base: Options | None = None) -> Opti
             _require_number(f"gains.{name}", value)
         given["gains"] = replace(base.gains, **given["gains"])
     if "pushes" in given:
-        given["pushes"] = tuple(_push(i, push) for i, push in enumerate(_listed("pushes", given["pushes"])))
+        pushes = given["pushes"]
+        several = [pushes] if isinstance(pushes, Push) or is_row(pushes) else _listed("pushes", pushes)
+        given["pushes"] = tuple(_push(i, push) for i, push in enumerate(several))
     for name, value in given.items():
         kind = type(getattr(base, name))
         if kind is float:
@@ -36,6 +40,12 @@ def make_options(values: Mapping[str, Any], base: Options | None = None) -> Opti
     options = replace(base, **given)
     options.validate()
     return options
+
+
+def is_row(values: Any) -> bool:
+    """Whether these are numbers, not rows of them; an array of NumPy is either."""
+    listed = isinstance(values, (Sequence, np.ndarray)) and np.ndim(values[:1]) > 0 and len(values) > 0
+    return listed and hasattr(values[0], "__float__") and np.ndim(values[0]) == 0
 
 
 def _require_known(values: Mapping[str, Any], kind: type, prefix: str) -> None:
