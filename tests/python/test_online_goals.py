@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.online.goals import LOOKED_FOR_S, NEAR_RAD, NEAR_RATIO, Aim, is_elsewhere, turn_to, velocity_to
+from mcplan.online.goals import (
+    LOOKED_FOR_S,
+    NEAR_RAD,
+    NEAR_RATIO,
+    NEARER_RATIO,
+    NO_NEARER_S,
+    Aim,
+    is_elsewhere,
+    turn_to,
+    velocity_to,
+)
 
 GOALS = [
     (1.0, 0.6, np.pi / 2),
@@ -71,15 +81,40 @@ def test_after_a_stand_steps_to_the_goal_are_looked_for_before_it_is_walked_towa
     scene, place = mp.load_scene("flat"), np.array([0.5, 0.0, 0.9])
     aim = Aim(scene, robot)
     aim.stopped(3.0, place, 0.0)
-    assert aim.open and not aim.steering and aim.velocity(place, 0.0) is None
+    assert aim.open and not aim.steering and aim.velocity(3.0, place, 0.0) is None
     assert aim.goal == (*scene.goal.position_W[:2], scene.goal.yaw)
     aim.stopped(3.0 + LOOKED_FOR_S - 0.1, place, 0.0)
     assert not aim.steering
     aim.stopped(3.0 + LOOKED_FOR_S + 0.1, place, 0.0)
-    assert aim.steering and aim.velocity(place, 0.0)[0] > 0.0
+    assert aim.steering and aim.velocity(5.2, place, 0.0)[0] > 0.0
     aim.led_to()
     aim.stopped(9.0, place, 0.0)
     assert aim.open and not aim.steering
     # No steps lead to a goal that is turned.
     aim.stopped(9.1, place, 1.0)
     assert aim.steering
+
+
+def test_where_a_velocity_brings_no_nearer_steps_to_the_goal_are_looked_for_again(robot):
+    aim, place = Aim(mp.load_scene("flat"), robot), np.array([0.5, 0.0, 0.9])
+    nearer = np.array([NEARER_RATIO * robot.com_height + 0.01, 0.0, 0.0])
+    aim.stopped(0.0, place, 0.0)
+    aim.stopped(3.0, place, 0.0)
+    assert aim.steering
+    for now_s, at in ((3.0, place), (6.9, place + 0.5 * nearer), (7.0, place + nearer), (10.9, place + nearer)):
+        assert aim.velocity(now_s, at, 0.0) is not None
+    assert aim.velocity(11.1, place + nearer, 0.0) is None
+    assert aim.open and not aim.steering
+    # For as long as after a stand, and then at a velocity once more.
+    aim.stopped(11.2, place + nearer, 0.0)
+    assert not aim.steering
+    aim.stopped(11.1 + LOOKED_FOR_S + 0.1, place + nearer, 0.0)
+    assert aim.steering and aim.velocity(13.3, place + nearer, 0.0) is not None
+    assert aim.velocity(13.3 + NO_NEARER_S - 0.1, place + nearer, 0.0) is not None
+
+
+def test_no_steps_are_looked_for_to_a_goal_that_is_turned(robot):
+    aim, place = Aim(mp.load_scene("flat"), robot), np.array([0.5, 0.0, 0.9])
+    aim.stopped(0.0, place, 1.0)
+    for now_s in (0.0, 10.0, 60.0):
+        assert aim.velocity(now_s, place, 1.0) is not None

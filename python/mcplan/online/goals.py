@@ -28,6 +28,8 @@ FASTEST, HUMAN_M, MADE_GOOD_S = (0.12, 0.05, 0.3), 0.88, 2.0
 STEERED_PHASES = 6
 #: For so long after a stand has begun steps to the goal are looked for, before it is walked towards at a velocity [s].
 LOOKED_FOR_S = 2.0
+#: Where that brings it no nearer, by so much over the height of the CoM, for so long, steps are looked for again [s].
+NEARER_RATIO, NO_NEARER_S = 0.05, 4.0
 
 
 def turn_to(goal: tuple[float, float, float], heading: float) -> float:
@@ -108,6 +110,7 @@ class Aim:
         self._robot = robot
         self._asked: Goal | None = None
         self._stands_s = np.inf  # since when no plan leads to the goal
+        self._nearest_m, self._nearest_s = np.inf, np.inf  # to the goal, while it is walked towards at a velocity
         self.goal: Goal | None = None
         self.open = self.steering = False
 
@@ -115,7 +118,7 @@ class Aim:
         """Aim at a goal [m, m, rad] from a place of the CoM and a heading [rad]; whether it is another than before."""
         if goal is None or goal == self._asked:
             return False
-        self._asked, self.goal, self.open = goal, goal, True
+        self._asked, self.goal, self.open, self._nearest_m = goal, goal, True, np.inf
         self.steering = is_elsewhere(goal, place_W, heading, self._robot)
         return True
 
@@ -127,18 +130,28 @@ class Aim:
         self.goal, self.open = self.goal or self._of_scene, True
         self._stands_s = min(self._stands_s, now_s)
         in_vain = now_s - self._stands_s > LOOKED_FOR_S
+        if not self.steering:
+            self._nearest_m = np.inf
         self.steering = in_vain or is_elsewhere(self.goal, place_W, heading, self._robot)
 
     def led_to(self) -> None:
         """The plan under way leads to the goal."""
         self.open, self._stands_s = False, np.inf
 
-    def velocity(self, place_W: NDArray[np.float64], heading: float) -> tuple[float, float, float] | None:
+    def velocity(self, now_s: float, place_W: NDArray[np.float64], heading: float) -> tuple[float, float, float] | None:
         """The velocity, ahead, to the left [m/s] and turning [rad/s], to walk at now; None: to the goal itself.
 
-        From a goal that is near on `steering` is off, and the heading of the goal counted as the robot's is.
+        From a goal that is near on `steering` is off, and the heading of the goal counted as the robot's is. It is off, too,
+        where the robot has come no nearer for long: another place or another foot in front may have steps that lead there.
         """
         if not self.steering or self.goal is None:
+            return None
+        off_m = self.off_m(place_W)
+        if off_m < self._nearest_m - NEARER_RATIO * self._robot.com_height:
+            self._nearest_m, self._nearest_s = off_m, now_s
+        ahead = not is_elsewhere(self.goal, place_W, heading, self._robot)
+        if ahead and now_s - self._nearest_s > NO_NEARER_S:
+            self.steering, self._nearest_m, self._stands_s = False, np.inf, now_s
             return None
         velocity = velocity_to(self.goal, place_W, heading, self._robot)
         if velocity is None:

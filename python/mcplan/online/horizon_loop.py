@@ -70,7 +70,7 @@ class HorizonLoop(Loop):
         self.touchdowns.asked(now_s)
         ready_s = now_s + (self.online.latency_s if self.online.fixed_latency else update.took_s)
         ready_s = max(ready_s, update.begins_s) if update.usable else ready_s
-        self.tally.computed(update.took_s, ready_s - now_s, update.status, reason)
+        self.tally.computed(update, ready_s - now_s, reason)
         self.pending = Pending(update, ready_s, False)
 
     def _take_over(self, now_s: float) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mcplan._core import Plan, Scene
 from mcplan.errors import InvalidInput
 from mcplan.tracking.interruption import Interruption
-from mcplan.tracking.measures import measure, with_touches
+from mcplan.tracking.measures import at_torque_limit, measure, with_touches
 from mcplan.tracking.options import Options, Push
 from mcplan.tracking.recorder import Acting
 from mcplan.tracking.references import references
@@ -237,7 +237,7 @@ class Loop:
         assert update is not None
         self.pace.asked(now_s)
         latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
-        self.tally.computed(update.took_s, latency_s, update.status, reason)
+        self.tally.computed(update, latency_s, reason)
         off_m = distances(under_way.plan, t, com_W, velocity_W)
         on_plan = off_m[0] < self.online.com_margin_m and off_m[1] < self.online.capture_margin_m
         needless = few and update.usable and update.plan is not None and longer(update.plan, under_way.plan, t)
@@ -285,7 +285,7 @@ class Loop:
         command = self.online.command_at(now_s)
         self.aim.steering &= command is None
         if self.aim.steering:
-            command = self.aim.velocity(com_W, heading)
+            command = self.aim.velocity(now_s, com_W, heading)
             if command is None:
                 self._plan_on(self.ground.scene)
         return STAND if self.stopping else command
@@ -359,6 +359,7 @@ class Loop:
             simulator_warnings=self.simulation.warnings,
             realtime_factor=(n + 1) * self.dt_s / wall_s,
             control_ms=1e3 * self.control_s / (n + 1),
+            leg_torque_limit_ratio=float(at_torque_limit(recording)[:, self.controller.legs].any(axis=1).mean()),
         )
         options, online = self.options, self.online
         if self.beside.steer is not None:
@@ -370,7 +371,10 @@ class Loop:
     def _goal_off_m(self, now_s: float) -> float | None:
         """From the CoM to the goal, on the level [m]; None: none is walked to."""
         commanded = self.online.command_at(now_s) is not None or self.online.engine == "rhp"
-        return None if commanded else self.aim.off_m(self.controller.dynamics.com_W)
+        if commanded:
+            return None
+        self.actual.update(*self.simulation.state())  # what the controller reads has noise
+        return self.aim.off_m(self.actual.com_W)
 
     def _end_posture(self) -> Array:
         """Where the plan under way ends; not a number where the robot could not take that posture up."""

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from .planner import Update
 
 
 @dataclass(frozen=True)
@@ -30,6 +33,7 @@ class OnlineMeasures:
             is kept.
         statuses: How many computations had which status.
         reasons: How many were asked for by what: the period, a touchdown, the CoM or the capture point off the plan.
+        first_error: What the planner said of the first state that it refused (status "error"); empty: none.
     """
 
     replans: int = 0
@@ -46,6 +50,7 @@ class OnlineMeasures:
     kept_from_s: float = 0.0
     statuses: dict[str, int] = field(default_factory=dict)
     reasons: dict[str, int] = field(default_factory=dict)
+    first_error: str = ""
 
     def as_dict(self) -> dict[str, Any]:
         """By name, for JSON."""
@@ -63,13 +68,16 @@ class Tally:
         self.reasons: Counter[str] = Counter()
         self.used = self.contact_changes = self.stops = 0
         self.oldest_s = 0.0
+        self.first_error = ""
 
-    def computed(self, took_s: float, latency_s: float, status: str, reason: str) -> None:
+    def computed(self, update: Update, latency_s: float, reason: str) -> None:
         """A computation ended."""
-        self.took_s.append(took_s)
+        self.took_s.append(update.took_s)
         self.latencies_s.append(latency_s)
-        self.statuses[status] += 1
+        self.statuses[update.status] += 1
         self.reasons[reason] += 1
+        if update.status == "error":
+            self.first_error = self.first_error or update.message
 
     def measures(self, ground_felt: int = 0, goal_off_m: float | None = None) -> OnlineMeasures:
         """The numbers; how often the ground was felt to be another, and how far the goal is, the loop knows."""
@@ -90,4 +98,5 @@ class Tally:
             goal_off_m=goal_off_m,
             statuses=dict(sorted(self.statuses.items())),
             reasons=dict(sorted(self.reasons.items())),
+            first_error=self.first_error,
         )

@@ -120,6 +120,9 @@ def result_from(header: Header, arrays: Arrays) -> TrackingResult:
         {key: value for key, value in own["options"].items() if key in option_names() and key != "engine"}
     )
     options["engine"] = engine
+    measured = dict(own["measures"])
+    first_error = measured.pop("first_error", "")  # text, as no other measure; earlier versions had none
+    measured = numbers(measured)
     for name in ("command", "goal"):
         options[name] = tuple(tuple(row) for row in options[name])
     return RunResult(
@@ -127,7 +130,7 @@ def result_from(header: Header, arrays: Arrays) -> TrackingResult:
         tracked.measures,
         tracked.options,
         tracked.interrupted,
-        OnlineMeasures(**numbers(own["measures"])),
+        OnlineMeasures(**measured, first_error=first_error),
         OnlineOptions(**options),
         tuple(plans),
     )
@@ -150,4 +153,5 @@ def online_rows(m: OnlineMeasures) -> list[tuple[str, str]]:
         ("oldest plan", f"{m.oldest_plan_s:.2f} s"),
         ("contacts not planned first", str(m.contact_changes)),
         *([("ground felt elsewhere", f"{m.ground_felt} times")] if m.ground_felt else []),
+        *([("first error of a replan", m.first_error)] if m.first_error else []),
     ]
