@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,8 +16,8 @@ from mcplan.kinematics.urdf_model import require_urdf
 from mcplan.online.options import OnlineOptions, option_names
 from mcplan.online.steering import ALONE, Beside, require_steerable
 from mcplan.solve import plan as solve
-from mcplan.tracking.choice import make_options
-from mcplan.tracking.options import Options, Push
+from mcplan.tracking.choice import is_row, make_options
+from mcplan.tracking.options import Options
 
 if TYPE_CHECKING:
     from mcplan.online.result import RunResult
@@ -77,19 +77,10 @@ def chosen_options(values: Mapping[str, Any]) -> tuple[Options, OnlineOptions]:
         if name not in own and name not in known:
             legal = sorted([*own, *known])
             raise InvalidOptions(name, f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}")
-    if "pushes" in given and _is_single(given["pushes"]):
-        given["pushes"] = [given["pushes"]]
     options = make_options({name: value for name, value in given.items() if name not in own})
     online = replace(OnlineOptions(), **{name: _typed(name, given[name]) for name in own if name in given})
     online.validate()
     return options, online
-
-
-def _is_single(pushes: Any) -> bool:
-    """Whether it is one push, not a list of some."""
-    return isinstance(pushes, Push) or (
-        isinstance(pushes, Sequence) and len(pushes) > 0 and hasattr(pushes[0], "__float__")
-    )
 
 
 def first_plan(
@@ -112,6 +103,11 @@ def first_plan(
     return first_walk(*begins, online)
 
 
+def names_plan(scene: str | Path) -> bool:
+    """Whether a path is that of a plan, not of a scene, and no name of one."""
+    return Path(scene).suffix in (".npz", ".json")
+
+
 def _plan_or_walk(scene: Scene | Plan | str | Path, robot: Robot | str | Path | None) -> Plan | tuple[Scene, Robot]:
     """The plan, if it is one or the path of one; else scene and robot.
 
@@ -121,7 +117,7 @@ def _plan_or_walk(scene: Scene | Plan | str | Path, robot: Robot | str | Path | 
     if isinstance(scene, Plan):
         return scene
     if not isinstance(scene, Scene):
-        if Path(scene).suffix in (".npz", ".json"):
+        if names_plan(scene):
             from mcplan.files.whole_body_plans import load_any_plan
 
             plan = load_any_plan(Path(scene))
@@ -187,7 +183,7 @@ def _rows(name: str, value: Any) -> list[tuple[float, ...]]:
         InvalidOptions: No numbers.
     """
     try:
-        rows = [value] if len(value) and hasattr(value[0], "__float__") else value
+        rows = [value] if is_row(value) else value
         return [tuple(float(number) for number in row) for row in rows]
     except (TypeError, ValueError):
         raise InvalidOptions(name, "must be numbers", shown(value)) from None

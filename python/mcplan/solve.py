@@ -54,15 +54,7 @@ def replan(
     require("scene", scene, Scene, optional=True)
     require("robot", robot, Robot, optional=True)
     t = require_number("t", t)
-    own = option_names(_core.ddp.ReplanOptions)
-    legal = [*own, *option_names(_core.ddp.Options)]
-    for name in named:
-        if name not in legal and name not in ALIASES:
-            raise InvalidOptions(
-                str(name), f"no such option. {did_you_mean(str(name), legal)}Options: {', '.join(legal)}"
-            )
-    how = fill(_core.ddp.ReplanOptions(), {name: value for name, value in named.items() if name in own})
-    search = make_options({name: value for name, value in named.items() if name not in own}, options)
+    how, search = replan_options(named, options)
     return _core.ddp.replan(
         previous,
         t,
@@ -74,6 +66,27 @@ def replan(
         search,
         command_of(command),
     )
+
+
+def replan_options(
+    named: Mapping[str, Any], base: _core.ddp.Options | None = None
+) -> tuple[_core.ddp.ReplanOptions, _core.ddp.Options]:
+    """Options of a replan and of its search, from one set of names.
+
+    Raises:
+        InvalidOptions: No such option, or its value is out of range.
+    """
+    own = option_names(_core.ddp.ReplanOptions)
+    legal = [*own, *option_names(_core.ddp.Options)]
+    for name in named:
+        if name not in legal and name not in ALIASES:
+            raise InvalidOptions(
+                str(name), f"no such option. {did_you_mean(str(name), legal)}Options: {', '.join(legal)}"
+            )
+    how = fill(_core.ddp.ReplanOptions(), {name: value for name, value in named.items() if name in own})
+    search = make_options({name: value for name, value in named.items() if name not in own}, base)
+    how.validate()
+    return how, search
 
 
 def contact_indices(contacts: Contacts | None, plan: Plan) -> list[int]:

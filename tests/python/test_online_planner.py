@@ -224,11 +224,59 @@ def test_nothing_is_replanned_where_only_standing_is_left(plan):
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("period_s", 0.0), ("latency_s", -0.1), ("command", ((1.0, 0.0),)), ("com_margin_m", 0.0), ("pause_s", 2.0)],
+    [
+        *(("period_s", 0.0), ("latency_s", -0.1), ("command", ((1.0, 0.0),)), ("com_margin_m", 0.0), ("pause_s", 2.0)),
+        *(("start_slack_s", 3.1), ("start_slack_s", 0.0), ("time_limit_s", 0.0), ("keep_s", 0.0)),
+    ],
 )
 def test_options_out_of_range_are_refused_by_name(name, value):
     with pytest.raises(mp.errors.InvalidOptions, match=name):
         OnlineOptions(**{name: value}).validate()
+
+
+@pytest.mark.parametrize(
+    "named", [{"command": ((0.0, 0.1, 0.0, 0.0),)}, {"goal": ((0.0, 1.0, 0.0, 0.0),)}, {"told_at_s": 1.0}]
+)
+def test_a_robot_that_follows_one_plan_is_led_nowhere_else(named):
+    OnlineOptions(**named).validate()
+    with pytest.raises(mp.errors.InvalidOptions, match=f"{next(iter(named))}: must not be given without replanning"):
+        OnlineOptions(replanning=False, **named).validate()
+
+
+@pytest.mark.parametrize(
+    ("named", "says"),
+    [
+        ({"command": ((0.0, 0.1, 0.0, 0.0), (6.0, 0.1, 0.0, 0.0))}, r"command\[1\] at_s: must not lie after the end"),
+        ({"goal": ((6.0, 1.0, 0.0, 0.0),)}, r"goal\[0\] at_s: must not lie after the end of the run, 5 s, got 6"),
+        ({"told_at_s": 6.0}, "told_at_s: must not lie after the end of the run"),
+    ],
+)
+def test_what_would_never_come_to_pass_is_refused(named, says):
+    OnlineOptions(**named).require_within(6.0)
+    with pytest.raises(mp.errors.InvalidOptions, match=says):
+        OnlineOptions(**named).require_within(5.0)
+
+
+@pytest.mark.parametrize(
+    ("named", "says"),
+    [
+        ({"begins_s": float("nan")}, "begins_s: must be finite"),
+        ({"begins_s": "now"}, "begins_s: must be a number"),
+        ({"period_s": -1.0}, "period_s: must be positive"),
+        ({"command": (1.0,)}, "command: must be a ddp.VelocityCommand or three numbers"),
+        ({"latensy": 3.0}, "latensy: no such option"),
+        ({"start_slack_s": -1.0}, "start_slack_s"),
+    ],
+)
+def test_a_planner_is_not_made_of_what_it_cannot_plan_with(plan, named, says):
+    threads = threading.active_count()
+    with pytest.raises((mp.errors.InvalidInput, mp.errors.InvalidOptions, mp.errors.InvalidArgument), match=says):
+        Planner(plan, **named)
+    assert threading.active_count() == threads
+    with pytest.raises(mp.errors.InvalidArgument, match="plan: must be a Plan"):
+        Planner(None)
+    with Planner(plan) as planner, pytest.raises(mp.errors.InvalidArgument, match="update: must be an? Update"):
+        planner.take_over(None)
 
 
 def test_legs_that_catch_a_robot_reach_as_far_as_their_joints_let_them():

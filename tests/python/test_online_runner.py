@@ -12,6 +12,7 @@ for name in ("mujoco", "pinocchio", "proxsuite", "example_robot_data"):
     pytest.importorskip(name)
 
 from mcplan.cli import main  # noqa: E402
+from mcplan.online.result import RunResult  # noqa: E402
 from mcplan.tracking import Measures  # noqa: E402
 
 LATENCY = 0.02
@@ -333,8 +334,6 @@ def test_stairs_that_are_not_as_planned_are_climbed(stairs_plan, edit):
 
 
 def test_saved_runs_keep_their_planning(plan, tmp_path):
-    from mcplan.online.result import RunResult
-
     run = mp.run(plan, latency=LATENCY, duration=0.35, self_contacts=False, command=(0.1, 0.0, 0.0))
     run.save(tmp_path / "run.npz")
     again = RunResult.load(tmp_path / "run.npz")
@@ -357,7 +356,7 @@ def test_saved_runs_keep_their_planning(plan, tmp_path):
 @pytest.mark.parametrize(
     ("told", "message"),
     [
-        ({"told_at_s": 1.0}, "told_at_s: must be given with true_scene"),
+        ({"told_at_s": 1.0}, "told_at_s: must be given with a true scene"),
         ({"true_scene": "turn_jump"}, r"true_scene\.surfaces\[\d\]\.name: must be the name of a surface"),
         ({"true_scene": "no_such"}, "no scene 'no_such'"),
         ({"true_scene": 3}, "true_scene: must be a Scene"),
@@ -366,3 +365,44 @@ def test_saved_runs_keep_their_planning(plan, tmp_path):
 def test_ground_that_cannot_be_simulated_is_refused(plan, told, message):
     with pytest.raises((ValueError, TypeError), match=message):
         mp.run(plan, **told)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_the_push_of_a_seed_acts_in_the_run_that_its_options_repeat(plan, seed):
+    run = mp.run(plan, latency=LATENCY, duration=0.3, seed=seed, self_contacts=False)
+    assert len(run.options.pushes) == 1 and run.options.pushes[0].at_s < 0.3
+    drawn = ("mass_scale", "friction_scale", "ground_shift_m", "torque_delay_s", "torque_bandwidth_hz")
+    options = {name: getattr(run.options, name) for name in (*drawn, "noise_seed", "sensor_noise", "pushes")}
+    again = mp.run(plan, latency=LATENCY, duration=0.3, self_contacts=False, **options)
+    np.testing.assert_array_equal(again.recording.configurations, run.recording.configurations)
+
+
+def test_what_the_planner_refuses_is_told_and_saved(plan, tmp_path, monkeypatch):
+    from mcplan.online import planner
+
+    def refuse(*_: object) -> None:
+        raise mp.errors.InvalidPlan("measured.com_W", "must be finite", "nan")
+
+    monkeypatch.setattr(planner, "replan", refuse)
+    run = mp.run(plan, latency=LATENCY, duration=0.3, self_contacts=False)
+    assert run.online.statuses == {"error": run.online.replans} and run.online.replans > 0
+    assert run.online.first_error == "InvalidPlan: measured.com_W: must be finite, got nan"
+    assert run.online.first_error in str(run)
+    run.save(tmp_path / "run.npz")
+    assert RunResult.load(tmp_path / "run.npz").online.first_error == run.online.first_error
+
+
+def test_more_plans_than_a_file_can_have_are_refused_when_they_are_saved(plan, tmp_path, monkeypatch):
+    from mcplan.tracking import run_files
+
+    run = mp.run(plan, latency=LATENCY, duration=0.3, self_contacts=False)
+    most = len(run.plans)
+    run.save(tmp_path / "run.npz")
+    with np.load(tmp_path / "run.npz") as saved:
+        monkeypatch.setattr(run_files, "MAX_ARRAYS", len(saved.files))
+    run.save(tmp_path / "full.npz")
+    assert len(RunResult.load(tmp_path / "full.npz").plans) == most
+    monkeypatch.setattr(run_files, "MAX_ARRAYS", run_files.MAX_ARRAYS - 1)
+    with pytest.raises(mp.errors.InvalidInput, match=f"plans: must be at most {most - 1}, which a file can have"):
+        run.save(tmp_path / "more.npz")
+    assert not (tmp_path / "more.npz").exists()

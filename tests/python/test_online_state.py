@@ -24,6 +24,20 @@ def reader():
     return StateReader(urdf_model.robot, urdf_model)
 
 
+def test_states_of_another_length_are_refused_by_name(reader):
+    q, v = np.zeros(reader.urdf_model.model.nq), np.zeros(reader.urdf_model.model.nv)
+    ends = len(reader.robot.end_effectors)
+    for values, says in (
+        ((q[:3], v, [True] * ends), f"configuration: must be {len(q)} numbers"),
+        ((q, v[:-1], [True] * ends), f"velocity: must be {len(v)} numbers"),
+        ((q, v, [True]), f"standing: must be {ends} numbers"),
+    ):
+        with pytest.raises(mp.errors.InvalidInput, match=says):
+            reader.knot(*values)
+    with pytest.raises(mp.errors.InvalidArgument, match="robot: must be a Robot"):
+        StateReader("talos")
+
+
 def test_angles_and_their_rates_are_those_of_the_rotation():
     rng = np.random.default_rng(3)
     for _ in range(20):

@@ -44,6 +44,7 @@ def test_pushes_begin_when_they_are_asked_for():
         (Asked((0.1, 0.0)), r"steer\(\).velocity: must be three finite numbers"),
         (Asked(("1", "2", "3")), r"steer\(\).velocity: must be three finite numbers"),
         (Asked((float("nan"), 0.0, 0.0)), r"steer\(\).velocity: must be three finite numbers"),
+        (Asked((50.0, 0.0, 0.0)), r"steer\(\).velocity: must have velocities of at most 10 m/s"),
         (Asked(push=("a", 1, 2)), r"steer\(\).push: must be three finite numbers"),
         (Asked(push=(10.0, -1.0, 0.0)), r"steer\(\).push\[1\]: must not be negative, got -1"),
         (Asked(ends="no"), r"steer\(\).ends: must be true or false"),

@@ -6,6 +6,7 @@ import json as json_module
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
@@ -192,7 +193,7 @@ def _run(
     from mcplan.cli.track_text import Progress
     from mcplan.extras import require
     from mcplan.online.steering import Beside, require_undecided
-    from mcplan.running import chosen_options, first_plan, run_any
+    from mcplan.running import chosen_options, first_plan, names_plan, run_any
 
     if telling.steer:
         require_terminal(sys.stdin)
@@ -212,7 +213,8 @@ def _run(
         beside = Beside(simulated, watch, steer)
         result, interrupted = as_far_as_it_came(lambda: run_any(plan, robot, values, beside, true_scene))
     progress.end()
-    print(json_module.dumps(summary(result), allow_nan=False) if telling.json else result, flush=True)
+    begun_with = Path(scene) if names_plan(scene) else None
+    print(json_module.dumps(summary(result, begun_with), allow_nan=False) if telling.json else result, flush=True)
     written = (replace(outputs, video=None, html=None, strip=None, plots=None) if interrupted else outputs).write(
         result, progress
     )
@@ -236,14 +238,14 @@ def _steering(
         yield keyboard, lambda now_s, _: progress.working(f"{now_s:.1f} s: {keyboard}")
 
 
-def summary(result: RunResult) -> dict[str, Any]:
-    """What ``--json`` prints: the keys of ``mcplan track --json``, and those of replanning."""
+def summary(result: RunResult, plan: Path | None = None) -> dict[str, Any]:
+    """What ``--json`` prints: the keys of ``mcplan track --json``, and those of replanning; `plan`: what it began with."""
     from dataclasses import asdict
 
     from mcplan.cli.track_text import finite_items
     from mcplan.cli.track_text import summary as track_summary
 
-    data = track_summary(result, None, None)
+    data = track_summary(result, plan, None)
     last = result.plans[-1]
     data["duration_s"] = last.begins_s + last.plan.duration()
     return {

@@ -140,6 +140,15 @@ def read_header(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
     return header
 
 
+def kind_in(data: bytes) -> object:
+    """The kind that the header of an archive says, whatever else is in it; None: it says none, or cannot be read."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive, archive.open("header.npy") as file:
+            return read_header({"header": _array(file.read(_MAX_HEADER), "header")}).get("kind")
+    except Exception:  # what is wrong with it is said where all of it is read
+        return None
+
+
 def kind_text(header: Mapping[str, Any]) -> str:
     """The kind that a header says, for a message; plans of contacts and CoM say none."""
     return written(header["kind"]) if header.get("kind") is not None else "none, as plans of contacts and CoM have"

@@ -34,7 +34,15 @@ from mcplan._core import (
 )
 from mcplan.errors import InvalidInput, InvalidPlan, written
 from mcplan.files import plans
-from mcplan.files.archives import archive_bytes, kind_text, read_arrays, read_header, require_kind, require_members
+from mcplan.files.archives import (
+    archive_bytes,
+    kind_in,
+    kind_text,
+    read_arrays,
+    read_header,
+    require_kind,
+    require_members,
+)
 from mcplan.files.plan_files import load_plan_file, write_plan_file
 
 KIND = "whole_body"
@@ -82,9 +90,9 @@ def load_any_plan(path: str | Path) -> Plan | PlanarPlan:
     """
 
     def from_archive(data: bytes) -> Plan | PlanarPlan:
+        if kind_in(data) in RUN_KINDS:
+            raise InvalidPlan("", "must be a plan", "a run of one, which mcplan track or mcplan run saved")
         kind = read_header(read_arrays(data)).get("kind")
-        if kind in RUN_KINDS:
-            raise InvalidPlan("", "must be a plan", "a run of one, which mcplan track saved")
         return plan_from_bytes(data) if kind == KIND else plans.plan_from_bytes(data)
 
     return load_plan_file(path, any_plan_from_json, from_archive)

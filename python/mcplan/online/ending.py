@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 #: Fallen: ratio of the CoM's height over the lowest foot to the nominal one, or tilt of the base [rad].
 FALLEN_RATIO, FALLEN_RAD = 0.6, 1.0
-#: Duration of a run under a command [s].
+#: Duration of a run under a command, from when the last one begins [s].
 COMMAND_S = 10.0
 #: A run to a goal ends at the latest after this ratio of the first plan's duration, and this time more [s].
 LONGEST_RATIO, LONGEST_S = 2.0, 5.0
@@ -34,13 +34,13 @@ def length_of(plan: Plan, options: Options, online: OnlineOptions, is_steered: b
         begins_s = max(row[0] for row in (*online.goal, *online.command))
         return begins_s + LONGEST_RATIO * planned_s + LONGEST_S
     if online.command:
-        return COMMAND_S
+        return online.command[-1][0] + COMMAND_S
     return LONGEST_RATIO * planned_s + LONGEST_S if online.replanning else planned_s
 
 
 def fallen(dynamics: RobotDynamics, robot: Robot) -> bool:
     """Whether the robot lies, or is about to."""
     feet = [i for i, end in enumerate(robot.end_effectors) if end.kind == "foot"]
-    lowest = min(dynamics.end_effector_position_W(i)[2] for i in feet)
+    lowest = min(dynamics.end_effector_position_W(i)[2] for i in feet or range(len(robot.end_effectors)))
     low = dynamics.com_W[2] - lowest < FALLEN_RATIO * robot.com_height
     return bool(low or dynamics.base_WB[2, 2] < np.cos(FALLEN_RAD))

@@ -67,16 +67,24 @@ class OnlineOptions:
         _require("engine", "must be 'ddp' or 'rhp'", repr(self.engine), self.engine in ENGINES)
         if self.engine == "rhp":
             self._require_for_rhp()
+        if not self.replanning:
+            self._require_for_one_plan()
         _require("period_s", "must lie in 0.01 to 10", self.period_s, 0.01 <= self.period_s <= 10)
         _require("pause_s", "must lie in 0 to 1", self.pause_s, 0 <= self.pause_s <= 1)
-        for name in ("com_margin_m", "capture_margin_m", "stop_after_s", "start_slack_s"):
+        for name in ("com_margin_m", "capture_margin_m", "stop_after_s"):
             value = getattr(self, name)
             _require(name, "must be above 0", value, bool(value > 0))
-        for name, high in (("latency_s", 1.0), ("time_limit_s", 10.0), ("duration_s", 3600.0), ("told_at_s", 3600.0)):
+        _require("start_slack_s", "must be above 0 and at most 3", self.start_slack_s, 0 < self.start_slack_s <= 3)
+        for name, low, high in (
+            ("latency_s", 0.0, 1.0),
+            ("time_limit_s", 1e-3, 10.0),
+            ("duration_s", 0.0, 3600.0),
+            ("told_at_s", 0.0, 3600.0),
+            ("keep_s", 0.1, 3600.0),
+        ):
             value = getattr(self, name)
-            _require(name, f"must lie in 0 to {high:g}, or be nan", value, bool(np.isnan(value) or 0 <= value <= high))
-        kept = bool(np.isnan(self.keep_s) or 0.1 <= self.keep_s <= 3600.0)
-        _require("keep_s", "must lie in 0.1 to 3600, or be nan", self.keep_s, kept)
+            within = bool(np.isnan(value) or low <= value <= high)
+            _require(name, f"must lie in {low:g} to {high:g}, or be nan", value, within)
         for name, rule in (
             ("command", "must be three finite numbers, or four with a time before them"),
             ("goal", "must be two to four finite numbers: x, y, heading, and the time from which on it holds"),
@@ -104,6 +112,22 @@ class OnlineOptions:
             "must be true with engine 'rhp', which plans at touchdowns alone; take engine 'ddp' to replan by the period"
         )
         _require("at_touchdowns", rule, self.at_touchdowns, self.at_touchdowns)
+
+    def _require_for_one_plan(self) -> None:
+        """Raise InvalidOptions naming the first field of which a robot that follows its first plan takes no notice."""
+        for name in ("command", "goal"):
+            rows = getattr(self, name)
+            _require(name, "must not be given without replanning, which alone leads elsewhere", rows, not rows)
+        rule = "must not be given without replanning: nobody is told"
+        _require("told_at_s", rule, self.told_at_s, bool(np.isnan(self.told_at_s)))
+
+    def require_within(self, run_s: float) -> None:
+        """Raise InvalidOptions naming the first command or goal that begins after a run of that duration, or what is told."""
+        rule = f"must not lie after the end of the run, {run_s:.6g} s"
+        for name in ("command", "goal"):
+            for i, row in enumerate(getattr(self, name)):
+                _require(f"{name}[{i}] at_s", rule, row[0], row[0] <= run_s)
+        _require("told_at_s", rule, self.told_at_s, not self.told_at_s > run_s)
 
     def command_at(self, time_s: float) -> tuple[float, float, float] | None:
         """The velocity to walk at at a time [s]; None: to a goal."""

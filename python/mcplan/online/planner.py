@@ -13,8 +13,9 @@ import numpy as np
 
 from mcplan._core import Knot, Plan, PlanFrom, Status
 from mcplan._core.online import follows, with_feet_kept_up
-from mcplan.errors import InvalidInput, shown
-from mcplan.solve import replan
+from mcplan.arguments import require, require_number
+from mcplan.errors import InvalidInput, InvalidOptions, shown
+from mcplan.solve import command_of, replan, replan_options
 
 if TYPE_CHECKING:
     from mcplan._core import PlanResult, Robot, Scene
@@ -94,6 +95,11 @@ class Planner:
         scene: Instead of the plan's own, for ground that was measured anew; None: the plan's own.
         robots: Robots to plan for, one after the other until a plan is usable: after the plan's own, one with wider limits,
             whose feet may step across each other.
+
+    Raises:
+        InvalidArgument: An argument is of another type.
+        InvalidInput: ``begins_s`` is not finite.
+        InvalidOptions: No such option, or its value is out of range.
     """
 
     def __init__(
@@ -105,6 +111,13 @@ class Planner:
         period_s: float = 0.1,
         **named: Any,
     ) -> None:
+        require("plan", plan, Plan)
+        if not np.isfinite(require_number("begins_s", begins_s)):
+            raise InvalidInput("begins_s", "must be finite", shown(begins_s))
+        if not 0.0 < require_number("period_s", period_s) < np.inf:
+            raise InvalidOptions("period_s", "must be positive", shown(period_s))
+        command_of(command)
+        replan_options(named)
         self.plan, self.begins_s = plan, begins_s
         self.command, self.period_s = command, period_s
         self.scene: Scene | None = None
@@ -137,8 +150,10 @@ class Planner:
 
         Raises:
             InvalidInput: The planner is closed, or the state is none.
+            InvalidOptions: No such option, or its value is out of range.
         """
         _require_state(state)
+        replan_options(named)
         with self._lock:
             if self._closed:
                 raise InvalidInput("planner", "must be open: it was closed")
@@ -163,8 +178,10 @@ class Planner:
         """The controller follows this update from now on: the next plans are made from it.
 
         Raises:
+            InvalidArgument: It is no Update.
             InvalidInput: It has no plan.
         """
+        require("update", update, Update)
         if update.plan is None:
             raise InvalidInput("update", "must have a plan", update.message)
         with self._lock:

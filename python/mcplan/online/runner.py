@@ -24,6 +24,7 @@ from .loop import Loop
 from .options import OnlineOptions
 from .result import RunResult
 from .steering import Beside, Steer, require_steerable
+from .true_scene import require_goal
 
 Array = NDArray[np.float64]
 
@@ -69,7 +70,8 @@ def run(
     _require_valid(plan, options, online, true_scene, steer)
     walker = robot_for(plan, robot)
     if options.seed:
-        options = disturbed(options, options.seed, plan.duration(), walker.mass)
+        pushed_s = min(plan.duration(), length_of(plan, options, online, steer is not None))
+        options = disturbed(options, options.seed, pushed_s, walker.mass)
     from mcplan.tracking import mujoco_model
     from mcplan.tracking.simulation import Simulation
 
@@ -103,10 +105,14 @@ def _require_valid(
     require_steerable(steer, online)
     if true_scene is not None:
         true_scene.validate()
+        if not np.isnan(online.told_at_s):
+            require_goal(true_scene, plan.scene)
     elif not np.isnan(online.told_at_s):
         raise InvalidOptions(
             "told_at_s",
             "must be given with a true scene (the ground that is simulated), which the planner is told",
             f"{online.told_at_s:g}",
         )
-    options.require_pushes_within(length_of(plan, options, online, steer is not None))
+    run_s = length_of(plan, options, online, steer is not None)
+    options.require_pushes_within(run_s)
+    online.require_within(run_s)

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan._core import Knot
+from mcplan._core import Knot, Robot
+from mcplan.arguments import require
+from mcplan.errors import InvalidInput
 from mcplan.kinematics.urdf_model import UrdfModel, load_model
 
 from .planner import MeasuredState
@@ -15,7 +17,7 @@ from .planner import MeasuredState
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from mcplan._core import Plan, Robot, Scene
+    from mcplan._core import Plan, Scene
 
 Array = NDArray[np.float64]
 
@@ -39,6 +41,7 @@ class StateReader:
     def __init__(self, robot: Robot, urdf_model: UrdfModel | None = None, *, of_joints: bool = False) -> None:
         import pinocchio as pin  # type: ignore[import-untyped]
 
+        require("robot", robot, Robot)
         self._pin = pin
         self.urdf_model = urdf_model or load_model(robot)
         self.robot = robot
@@ -62,9 +65,15 @@ class StateReader:
             configuration: (nq,) base position, quaternion xyzw, joints: Pinocchio's convention.
             velocity: (nv,) base linear and angular in the base's axes, joints.
             standing: (e,) end-effectors in contact: they have no velocity.
+
+        Raises:
+            InvalidInput: One of them has another length.
         """
         pin, data, model = self._pin, self._data, self.urdf_model.model
         configuration, velocity = np.asarray(configuration, float), np.asarray(velocity, float)
+        _require_count("configuration", configuration, model.nq)
+        _require_count("velocity", velocity, model.nv)
+        _require_count("standing", standing, len(self.urdf_model.frames))
         pin.computeCentroidalMomentum(model, data, configuration, velocity)
         pin.updateFramePlacements(model, data)
         base_WB = np.asarray(data.oMi[1].rotation)
@@ -158,6 +167,11 @@ def _distance(outline_W: Array, point_W: Array) -> float:
     inward /= np.linalg.norm(inward, axis=1, keepdims=True)
     outside = float(np.max(-np.einsum("ij,ij->i", inward, point_W - outline_W), initial=0.0))
     return float(np.hypot(height, max(outside, 0.0)))
+
+
+def _require_count(name: str, values: Array | Sequence[bool], count: int) -> None:
+    if np.shape(values) != (count,):
+        raise InvalidInput(name, f"must be {count} numbers", f"an array of shape {np.shape(values)}")
 
 
 def rpy_of(rotation: Array) -> Array:

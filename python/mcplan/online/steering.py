@@ -11,6 +11,8 @@ import numpy as np
 from mcplan.errors import InvalidArgument, InvalidInput, InvalidOptions, shown
 from mcplan.tracking.options import Push
 
+from .options import FASTEST
+
 if TYPE_CHECKING:
     from mcplan.tracking.options import Options, Watch
 
@@ -94,6 +96,9 @@ def steered(steer: Steer, now_s: float, options: Options, online: OnlineOptions)
         raise InvalidInput("steer().ends", "must be true or false", shown(asked.ends))
     if asked.velocity is not None:
         row = (now_s, *_three("velocity", asked.velocity))
+        if max(map(abs, row[1:])) > FASTEST:
+            rule = f"must have velocities of at most {FASTEST:g} m/s and rad/s"
+            raise InvalidInput("steer().velocity", rule, shown(asked.velocity))
         if not online.command or online.command[-1][1:] != row[1:]:
             online = replace(online, command=(*online.command, row))
     if asked.push is not None:

@@ -92,6 +92,10 @@ def save_run(parts: RunParts, path: str | Path) -> None:
     }
     names = _array_names(type(parts.recording))
     content = {in_file: getattr(parts.recording, name) for name, in_file in names.items()}
+    most = MAX_ARRAYS - len(content) - 2
+    if len(parts.files) > most:
+        rule = f"must be at most {most}, which a file can have (keep the end of the run alone with keep_s)"
+        raise InvalidInput("plans", rule, str(len(parts.files)))
     content["header"] = np.frombuffer(json.dumps(as_json(header), allow_nan=False).encode(), dtype=np.uint8)
     for name, data in {"plan": parts.plan, **parts.files}.items():
         content[name] = np.frombuffer(data, dtype=np.uint8)
