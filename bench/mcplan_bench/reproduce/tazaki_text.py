@@ -198,9 +198,9 @@ def figures(pictures: Sequence[str]) -> list[str]:
         3: (
             "contact sequence over the number of switches",
             "Each column is the sequence after so many switches, each band an end-effector with step 0 at its bottom; bands of "
-            "hands that touch nothing are left out. The published form goes on switching to the end, there and back within an "
-            "iteration, which does not show here and which the paper calls persistent chattering; ours stops when its cost no "
-            "longer falls. Its columns go on through polish, refinement and all first guesses.",
+            "hands that touch nothing in either form are left out. The published form goes on switching to the end, there and "
+            "back within an iteration, which does not show here and which the paper calls persistent chattering; ours stops "
+            "when its cost no longer falls. Its columns go on through polish, refinement and all first guesses.",
         ),
         4: (
             "complementarity weight and cost over the iterations",
