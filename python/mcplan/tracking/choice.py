@@ -44,8 +44,8 @@ def make_options(values: Mapping[str, Any], base: Options | None = None) -> Opti
 
 def is_row(values: Any) -> bool:
     """Whether these are numbers, not rows of them; an array of NumPy is either."""
-    listed = isinstance(values, (Sequence, np.ndarray)) and np.ndim(values[:1]) > 0 and len(values) > 0
-    return listed and hasattr(values[0], "__float__") and np.ndim(values[0]) == 0
+    listed = isinstance(values, Sequence) or (isinstance(values, np.ndarray) and values.ndim > 0)
+    return listed and len(values) > 0 and hasattr(values[0], "__float__") and np.ndim(values[0]) == 0
 
 
 def _require_known(values: Mapping[str, Any], kind: type, prefix: str) -> None:
@@ -62,7 +62,8 @@ def _require_number(name: str, value: Any) -> None:
 
 
 def _listed(name: str, value: Any) -> list[Any]:
-    if isinstance(value, Push) or not hasattr(value, "__iter__"):
+    is_number = isinstance(value, np.ndarray) and value.ndim == 0
+    if isinstance(value, Push | str) or is_number or not hasattr(value, "__iter__"):
         raise InvalidOptions(name, "must be a list", shown(value))
     return list(value)
 
