@@ -34,6 +34,26 @@ def placed(clip):
     return floats(positions["times"]), floats(positions["values"]).reshape(-1, 3)
 
 
+def bars(page: str) -> list[str]:
+    """What the bars of the timeline say of contacts, in their order."""
+    return re.findall(r'title="([^"]*) to [0-9.]+ s"', page)
+
+
+def test_the_timeline_names_surfaces_as_the_plan_does_whatever_ground_is_simulated(recording, html):
+    planned, plan = recording.plan.scene.__copy__(), recording.plan.__copy__()
+    other = planned.surfaces[0].__copy__()
+    other.name = "elsewhere"
+    other.vertices_W = np.asarray(other.vertices_W) + [50.0, 0.0, 1.0]
+    planned.surfaces = [*planned.surfaces, other]
+    plan.scene = planned
+    expected = bars(html)
+    assert expected and all(recording.plan.scene.surfaces[0].name in bar for bar in expected)
+    for surfaces in (planned.surfaces[::-1], planned.surfaces[:1]):
+        true = planned.__copy__()
+        true.surfaces = surfaces
+        assert bars(show_run(dataclasses.replace(recording, plan=plan, true_scene=true)).html()) == expected
+
+
 def test_meshes_are_where_the_recorded_configurations_put_them(recording, html):
     urdf_model = load_model(recording.plan.robot)
     data = urdf_model.model.createData()

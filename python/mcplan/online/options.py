@@ -12,6 +12,9 @@ from mcplan.errors import InvalidOptions
 ENGINES = ("ddp", "rhp")
 #: Largest velocity that may be asked for [m/s, rad/s]: what is followed of it is as much as the robot can.
 FASTEST = 10.0
+#: Longest ``start_slack_s`` [s]. Replans take 5 s at most, and a robot has it times the root of its size over a human's: this
+#: is within that for CoMs up to 2.4 m high.
+LONGEST_SLACK_S = 3.0
 
 
 @dataclass(frozen=True)
@@ -74,7 +77,8 @@ class OnlineOptions:
         for name in ("com_margin_m", "capture_margin_m", "stop_after_s"):
             value = getattr(self, name)
             _require(name, "must be above 0", value, bool(value > 0))
-        _require("start_slack_s", "must be above 0 and at most 3", self.start_slack_s, 0 < self.start_slack_s <= 3)
+        rule = f"must be above 0 and at most {LONGEST_SLACK_S:g}"
+        _require("start_slack_s", rule, self.start_slack_s, 0 < self.start_slack_s <= LONGEST_SLACK_S)
         for name, low, high in (
             ("latency_s", 0.0, 1.0),
             ("time_limit_s", 1e-3, 10.0),
