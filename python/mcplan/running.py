@@ -183,7 +183,9 @@ def _rows(name: str, value: Any) -> list[tuple[float, ...]]:
         InvalidOptions: No numbers.
     """
     try:
-        rows = [value] if is_row(value) else value
+        rows = [value] if is_row(value) else list(value)
+        if any(isinstance(part, str | bytes) for row in rows for part in (row, *row)):
+            raise TypeError
         return [tuple(float(number) for number in row) for row in rows]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InvalidOptions(name, "must be numbers", shown(value)) from None

@@ -13,6 +13,7 @@ from mcplan.online import MeasuredState, OnlineOptions, Planner
 from mcplan.online.pacing import Pace, distances, steps_left
 from mcplan.online.planner import with_feet_kept_up
 from mcplan.online.reach import widened
+from mcplan.running import chosen_options
 from planned_states import state_at
 
 
@@ -226,12 +227,20 @@ def test_nothing_is_replanned_where_only_standing_is_left(plan):
     ("name", "value"),
     [
         *(("period_s", 0.0), ("latency_s", -0.1), ("command", ((1.0, 0.0),)), ("com_margin_m", 0.0), ("pause_s", 2.0)),
+        *(("command", ((1e12, 0.1, 0.0, 0.0),)), ("goal", ((3601.0, 1.0, 0.0, 0.0),))),
         *(("start_slack_s", 3.1), ("start_slack_s", 0.0), ("time_limit_s", 0.0), ("keep_s", 0.0)),
     ],
 )
 def test_options_out_of_range_are_refused_by_name(name, value):
     with pytest.raises(mp.errors.InvalidOptions, match=name):
         OnlineOptions(**{name: value}).validate()
+
+
+@pytest.mark.parametrize("value", [5, "100", ["100"], [b"100"], np.zeros(()), (10**400, 0.0, 0.0), [(0.1, "0", 0.0)]])
+def test_what_is_no_velocity_is_refused(value):
+    for name in ("command", "goal"):
+        with pytest.raises(mp.errors.InvalidOptions, match=f"{name}: must be numbers"):
+            chosen_options({name: value})
 
 
 @pytest.mark.parametrize(

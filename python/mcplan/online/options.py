@@ -12,6 +12,8 @@ from mcplan.errors import InvalidOptions
 ENGINES = ("ddp", "rhp")
 #: Largest velocity that may be asked for [m/s, rad/s]: what is followed of it is as much as the robot can.
 FASTEST = 10.0
+#: Times of a run, and its length, at most [s].
+MAX_RUN_S = 3600.0
 #: Longest ``start_slack_s`` [s]. Replans take 5 s at most, and a robot has it times the root of its size over a human's: this
 #: is within that for CoMs up to 2.4 m high.
 LONGEST_SLACK_S = 3.0
@@ -82,9 +84,9 @@ class OnlineOptions:
         for name, low, high in (
             ("latency_s", 0.0, 1.0),
             ("time_limit_s", 1e-3, 10.0),
-            ("duration_s", 0.0, 3600.0),
-            ("told_at_s", 0.0, 3600.0),
-            ("keep_s", 0.1, 3600.0),
+            ("duration_s", 0.0, MAX_RUN_S),
+            ("told_at_s", 0.0, MAX_RUN_S),
+            ("keep_s", 0.1, MAX_RUN_S),
         ):
             value = getattr(self, name)
             within = bool(np.isnan(value) or low <= value <= high)
@@ -97,8 +99,8 @@ class OnlineOptions:
             ok = all(len(row) == 4 and bool(np.isfinite(np.asarray(row, float)).all()) for row in rows)
             _require(name, rule, rows, ok)
             times = [row[0] for row in rows]
-            ascending = times == sorted(times) and min(times, default=0.0) >= 0
-            _require(name, "must have ascending times of 0 or more", rows, ascending)
+            ascending = times == sorted(times) and min(times, default=0.0) >= 0 and max(times, default=0.0) <= MAX_RUN_S
+            _require(name, f"must have ascending times of 0 to {MAX_RUN_S:g} s", rows, ascending)
         slow = all(abs(part) <= FASTEST for row in self.command for part in row[1:])
         _require("command", f"must have velocities of at most {FASTEST:g} m/s and rad/s", self.command, slow)
         both = {row[0] for row in self.command} & {row[0] for row in self.goal}

@@ -44,7 +44,9 @@ def make_options(values: Mapping[str, Any], base: Options | None = None) -> Opti
 
 def is_row(values: Any) -> bool:
     """Whether these are numbers, not rows of them; an array of NumPy is either."""
-    listed = isinstance(values, Sequence) or (isinstance(values, np.ndarray) and values.ndim > 0)
+    listed = (isinstance(values, Sequence) and not isinstance(values, str | bytes)) or (
+        isinstance(values, np.ndarray) and values.ndim > 0
+    )
     return listed and len(values) > 0 and hasattr(values[0], "__float__") and np.ndim(values[0]) == 0
 
 
@@ -57,22 +59,24 @@ def _require_known(values: Mapping[str, Any], kind: type, prefix: str) -> None:
 
 
 def _require_number(name: str, value: Any) -> None:
-    if isinstance(value, bool) or not hasattr(value, "__float__"):
+    if isinstance(value, bool | str) or not hasattr(value, "__float__"):
         raise InvalidOptions(name, "must be a number", shown(value))
+    try:
+        float(value)
+    except (TypeError, ValueError, OverflowError):  # arrays, and integers that are larger than any float
+        raise InvalidOptions(name, "must be a number", shown(value)) from None
 
 
 def _listed(name: str, value: Any) -> list[Any]:
     is_number = isinstance(value, np.ndarray) and value.ndim == 0
-    if isinstance(value, Push | str) or is_number or not hasattr(value, "__iter__"):
+    if isinstance(value, Push | str | bytes) or is_number or not hasattr(value, "__iter__"):
         raise InvalidOptions(name, "must be a list", shown(value))
     return list(value)
 
 
 def _push(i: int, push: Any) -> Push:
-    if isinstance(push, Push):
-        return push
-    numbers = _listed(f"pushes[{i}]", push)
     names = [item.name for item in fields(Push)]
+    numbers = [getattr(push, name) for name in names] if isinstance(push, Push) else _listed(f"pushes[{i}]", push)
     if len(numbers) != len(names):
         raise InvalidOptions(f"pushes[{i}]", f"must be {', '.join(names)}", f"{len(numbers)} values")
     for name, value in zip(names, numbers, strict=True):
