@@ -1,5 +1,6 @@
 """The planner beside a controller: what is submitted comes back as a plan, in a thread, without a simulator."""
 
+import gc
 import subprocess
 import sys
 import threading
@@ -122,6 +123,22 @@ def test_a_state_that_waits_is_replaced_by_a_later_one(plan):
             last = planner.submit(state(plan, t))
         update = planner.wait()
     assert update.ticket == last and update.begins_s == 0.8
+
+
+def threads():
+    return [thread for thread in threading.enumerate() if thread.name == "mcplan.online"]
+
+
+@pytest.mark.parametrize("submitted", [False, True])
+def test_a_planner_that_nobody_uses_any_more_ends_its_thread_without_being_closed(plan, submitted):
+    planner = Planner(plan)
+    mine = planner._thread
+    if submitted:
+        planner.submit(state(plan, 1.0))
+    del planner
+    gc.collect()
+    mine.join(timeout=60.0)
+    assert not mine.is_alive() and mine not in threads()
 
 
 def test_a_state_that_is_refused_leaves_the_plan_and_the_thread_alone(plan):

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import threading
 import time
+import weakref
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +18,8 @@ from mcplan._core.online import follows, with_feet_kept_up
 from mcplan.arguments import require, require_number
 from mcplan.errors import InvalidInput, InvalidOptions, shown
 from mcplan.solve import command_of, replan, replan_options
+
+from .mailbox import Job, Mailbox
 
 if TYPE_CHECKING:
     from mcplan._core import PlanResult, Robot, Scene
@@ -90,7 +94,6 @@ class Planner:
         **named: Options of mcplan.replan by name, among them ``time_limit`` [s]. ``recovery_first`` is on here.
 
     Attributes:
-        plan, begins_s: The plan under way, and when it began.
         command: May be changed at any time; it holds for what is computed from then on.
         scene: Instead of the plan's own, for ground that was measured anew; None: the plan's own.
         robots: Robots to plan for, one after the other until a plan is usable: after the plan's own, one with wider limits,
@@ -118,25 +121,32 @@ class Planner:
             raise InvalidOptions("period_s", "must be positive", shown(period_s))
         command_of(command)
         replan_options(named)
-        self.plan, self.begins_s = plan, begins_s
+        self._under_way = plan, float(begins_s)  # one object, as both change at once beside the thread
         self.command, self.period_s = command, period_s
         self.scene: Scene | None = None
         self.robots: list[Robot] = [plan.robot]
         self._named: Mapping[str, Any] = named
-        self._lock = threading.Condition()
-        self._waiting: tuple[int, MeasuredState, Mapping[str, Any]] | None = None
-        self._done: Update | None = None
-        self._computing = False
-        self._closed = False
-        self._tickets = 0
-        self._thread = threading.Thread(target=self._work, name="mcplan.online", daemon=True)
+        self._mailbox: Mailbox[Update] = Mailbox()
+        work = partial(_work, weakref.ref(self), self._mailbox)
+        self._thread = threading.Thread(target=work, name="mcplan.online", daemon=True)
         self._thread.start()
+        # A planner that nobody uses any more ends its thread, closed or not.
+        weakref.finalize(self, self._mailbox.close)
+
+    @property
+    def plan(self) -> Plan:
+        """The plan under way."""
+        return self._under_way[0]
+
+    @property
+    def begins_s(self) -> float:
+        """Time of the clock at which it began."""
+        return self._under_way[1]
 
     @property
     def busy(self) -> bool:
         """Whether a state waits or is computed from."""
-        with self._lock:
-            return self._computing or self._waiting is not None
+        return self._mailbox.busy
 
     def submit(self, state: MeasuredState, **named: Any) -> int:
         """Ask for a plan from a measured state.
@@ -154,25 +164,15 @@ class Planner:
         """
         _require_state(state)
         replan_options(named)
-        with self._lock:
-            if self._closed:
-                raise InvalidInput("planner", "must be open: it was closed")
-            self._tickets += 1
-            self._waiting = (self._tickets, state, named)
-            self._lock.notify_all()
-            return self._tickets
+        return self._mailbox.submit(state, named)
 
     def poll(self) -> Update | None:
         """The latest update that has not been handed out yet; None: there is none. Returns at once."""
-        with self._lock:
-            done, self._done = self._done, None
-            return done
+        return self._mailbox.poll()
 
     def wait(self, timeout_s: float | None = None) -> Update | None:
         """The same, after whatever was submitted is computed, or the time is over."""
-        with self._lock:
-            self._lock.wait_for(lambda: not (self._computing or self._waiting), timeout_s)
-        return self.poll()
+        return self._mailbox.wait(timeout_s)
 
     def take_over(self, update: Update) -> None:
         """The controller follows this update from now on: the next plans are made from it.
@@ -184,14 +184,11 @@ class Planner:
         require("update", update, Update)
         if update.plan is None:
             raise InvalidInput("update", "must have a plan", update.message)
-        with self._lock:
-            self.plan, self.begins_s = update.plan, update.begins_s
+        self._under_way = update.plan, update.begins_s
 
     def close(self) -> None:
         """End the thread after what it computes now."""
-        with self._lock:
-            self._closed, self._waiting = True, None
-            self._lock.notify_all()
+        self._mailbox.close()
         self._thread.join()
 
     def __enter__(self) -> Planner:
@@ -200,19 +197,10 @@ class Planner:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
         self.close()
 
-    def _work(self) -> None:
-        while True:
-            with self._lock:
-                self._lock.wait_for(lambda: self._closed or self._waiting is not None)
-                if self._closed or self._waiting is None:
-                    return
-                (ticket, state, named), self._waiting = self._waiting, None
-                self._computing = True
-                plan, begins_s = self.plan, self.begins_s
-            update = self._computed(ticket, state, plan, begins_s, {**self._named, **named})
-            with self._lock:
-                self._done, self._computing = update, False
-                self._lock.notify_all()
+    def _update(self, job: Job) -> Update:
+        ticket, state, named = job
+        plan, begins_s = self._under_way
+        return self._computed(ticket, state, plan, begins_s, {**self._named, **named})
 
     def _computed(
         self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float, named: Mapping[str, Any]
@@ -254,3 +242,13 @@ class Planner:
             plan_from=report.plan_from.name,
             ticket=ticket,
         )
+
+
+def _work(planner: weakref.ref[Planner], mailbox: Mailbox[Update]) -> None:
+    """What the thread of a planner does: it knows the planner only while it computes."""
+
+    def update(job: Job) -> Update | None:
+        at_work = planner()
+        return None if at_work is None else at_work._update(job)
+
+    mailbox.serve(update)
