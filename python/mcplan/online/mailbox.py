@@ -4,30 +4,23 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 from mcplan.errors import InvalidInput
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from .planner import MeasuredState
-
+Asked = TypeVar("Asked")
 Done = TypeVar("Done")
 
-#: Number of the state, the state, and options for this time only.
-Job = tuple[int, "MeasuredState", "Mapping[str, Any]"]
 
-
-class Mailbox(Generic[Done]):
-    """One state waits at most, and one update: later ones replace them.
+class Mailbox(Generic[Asked, Done]):
+    """One state waits at most, with what is asked of it, and one update: later ones replace them.
 
     It knows no planner, so that the thread that serves it does not keep a planner alive that nobody uses any more.
     """
 
     def __init__(self) -> None:
         self._lock = threading.Condition()
-        self._waiting: Job | None = None
+        self._waiting: tuple[int, Asked] | None = None
         self._done: Done | None = None
         self._computing = self._closed = False
         self._tickets = 0
@@ -38,7 +31,7 @@ class Mailbox(Generic[Done]):
         with self._lock:
             return self._computing or self._waiting is not None
 
-    def submit(self, state: MeasuredState, named: Mapping[str, Any]) -> int:
+    def submit(self, asked: Asked) -> int:
         """Put a state in; returns its number, from 1 on.
 
         Raises:
@@ -48,7 +41,7 @@ class Mailbox(Generic[Done]):
             if self._closed:
                 raise InvalidInput("planner", "must be open: it was closed")
             self._tickets += 1
-            self._waiting = (self._tickets, state, named)
+            self._waiting = (self._tickets, asked)
             self._lock.notify_all()
             return self._tickets
 
@@ -70,17 +63,17 @@ class Mailbox(Generic[Done]):
             self._closed, self._waiting = True, None
             self._lock.notify_all()
 
-    def serve(self, compute: Callable[[Job], Done | None]) -> None:
+    def serve(self, compute: Callable[[int, Asked], Done | None]) -> None:
         """Compute from what is submitted, one after the other, until the mailbox is closed. For the thread."""
         while True:
             with self._lock:
                 self._lock.wait_for(lambda: self._closed or self._waiting is not None)
                 if self._closed or self._waiting is None:
                     return
-                job, self._waiting = self._waiting, None
+                (ticket, asked), self._waiting = self._waiting, None
                 self._computing = True
-            done = compute(job)
-            del job
+            done = compute(ticket, asked)
+            del asked
             with self._lock:
                 self._done, self._computing = done, False
                 self._lock.notify_all()

@@ -19,7 +19,7 @@ from mcplan.arguments import require, require_number
 from mcplan.errors import InvalidInput, InvalidOptions, shown
 from mcplan.solve import command_of, replan, replan_options
 
-from .mailbox import Job, Mailbox
+from .mailbox import Mailbox
 
 if TYPE_CHECKING:
     from mcplan._core import PlanResult, Robot, Scene
@@ -79,6 +79,10 @@ class Update:
     ticket: int
 
 
+#: A state, and options for this time only.
+Asked = tuple[MeasuredState, Mapping[str, Any]]
+
+
 class Planner:
     """Replans from measured states in a thread of its own; the GIL is released meanwhile.
 
@@ -126,7 +130,7 @@ class Planner:
         self.scene: Scene | None = None
         self.robots: list[Robot] = [plan.robot]
         self._named: Mapping[str, Any] = named
-        self._mailbox: Mailbox[Update] = Mailbox()
+        self._mailbox: Mailbox[Asked, Update] = Mailbox()
         work = partial(_work, weakref.ref(self), self._mailbox)
         self._thread = threading.Thread(target=work, name="mcplan.online", daemon=True)
         self._thread.start()
@@ -164,7 +168,7 @@ class Planner:
         """
         _require_state(state)
         replan_options(named)
-        return self._mailbox.submit(state, named)
+        return self._mailbox.submit((state, named))
 
     def poll(self) -> Update | None:
         """The latest update that has not been handed out yet; None: there is none. Returns at once."""
@@ -197,8 +201,8 @@ class Planner:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
         self.close()
 
-    def _update(self, job: Job) -> Update:
-        ticket, state, named = job
+    def _update(self, ticket: int, asked: Asked) -> Update:
+        state, named = asked
         plan, begins_s = self._under_way
         return self._computed(ticket, state, plan, begins_s, {**self._named, **named})
 
@@ -244,11 +248,11 @@ class Planner:
         )
 
 
-def _work(planner: weakref.ref[Planner], mailbox: Mailbox[Update]) -> None:
+def _work(planner: weakref.ref[Planner], mailbox: Mailbox[Asked, Update]) -> None:
     """What the thread of a planner does: it knows the planner only while it computes."""
 
-    def update(job: Job) -> Update | None:
+    def update(ticket: int, asked: Asked) -> Update | None:
         at_work = planner()
-        return None if at_work is None else at_work._update(job)
+        return None if at_work is None else at_work._update(ticket, asked)
 
     mailbox.serve(update)
