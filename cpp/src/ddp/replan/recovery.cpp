@@ -112,7 +112,7 @@ class Steps {
 
   /// The foot in the air lands on the other side of the one that stands. False where no ground is.
   bool land_across(int foot, double swing_s, bool nearer) {
-    const Knot& start = rest_.plan.knots.front();
+    const Knot start = rest_.plan.knots.front();  // a copy: phases that are put in move the knots
     const int other = other_than(foot);
     const EndEffector &one = robot_->end_effectors[foot], &stands = robot_->end_effectors[other];
     const double yaw = start.end_effector_yaw.empty() ? yaw_ : start.end_effector_yaw[other],

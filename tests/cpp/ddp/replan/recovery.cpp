@@ -46,11 +46,17 @@ Measured pushed_at(double t, const Vector3d& velocity) {
 /// To the side on which an end-effector is.
 double side_of(int foot) { return walk().robot.end_effectors[foot].nominal_B.y() < 0.0 ? -1.0 : 1.0; }
 
-/// What is tried at a time, with the CoM pushed to a side.
-std::vector<Recovery> tried(double t, double to_left_m_s, const ReplanOptions& options) {
+/// What is tried at a time, with the CoM pushed to a side, of what is left of the walk or of its first phase alone.
+std::vector<Recovery> tried(double t, double to_left_m_s, const ReplanOptions& options, bool first_phase_only = false) {
   const Deadline never;
   Now now{&walk().scene, &walk().robot, &options, &never, {}, {}, similarity_of(walk().robot, walk().scene.gravity)};
   Rest rest = rest_of(walk(), t);
+  if (first_phase_only) {
+    const ContactState landed = rest.contacts(1);
+    rest.keep_first();
+    rest.plan.final_contacts = landed;
+    rest.plan.knots.shrink_to_fit();
+  }
   rest.plan.knots.front().com_velocity_W.y() += to_left_m_s;
   return recoveries(rest, now);
 }
@@ -156,4 +162,19 @@ TEST_CASE("pushed outward over the foot that stands, the other one may step acro
     CHECK(across.axis_W.dot(via.head<2>()) > half_length(swing.foot) + half_length(swing.other));
   }
   CHECK((found[1].rest.across->axis_W + found[2].rest.across->axis_W).norm() < 1e-12);  // behind it and in front of it
+}
+
+TEST_CASE("steps across are the same where the plan ends with the swing under way") {
+  const Swinging swing = swinging();
+  const double outward = side_of(swing.other), t = swing.at(0.25);
+  ReplanOptions options;
+  options.crossing = true;
+  const std::vector<Recovery> all = tried(t, outward * 0.6, options), last = tried(t, outward * 0.6, options, true);
+  REQUIRE(last.size() == all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    REQUIRE(last[i].rest.size() == all[i].rest.size());
+    for (std::size_t k = 0; k < all[i].rest.plan.knots.size(); ++k)
+      for (const int foot : {swing.foot, swing.other})
+        CHECK(last[i].rest.plan.knots[k].end_effectors_W[foot] == all[i].rest.plan.knots[k].end_effectors_W[foot]);
+  }
 }
