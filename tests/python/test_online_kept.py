@@ -50,6 +50,20 @@ def test_plans_are_those_that_were_followed_then(runs):
     assert [one.begins_s for one in end.plans] == [one.begins_s for one in [before, *followed]]
 
 
+def test_contacts_older_than_what_is_kept_are_drawn_as_such(runs):
+    from mcplan.view.plots.run_footholds import plot_run_footholds
+
+    def labels(run):
+        chart = plot_run_footholds(run.recording).axes[0]
+        return sorted(text.get_text() for text in chart.texts if text.get_text())
+
+    whole, end = (labels(run) for run in runs)
+    assert whole[:2] == ["0.0", "0.0"] and not any(label.startswith("<") for label in whole)
+    stood = [text for text in end if text.startswith("<")]
+    assert stood and set(stood) == {"< 0.8"}
+    assert set(end) - set(stood) <= set(whole)
+
+
 def test_what_is_kept_is_saved_drawn_and_said(runs, tmp_path):
     end = runs[1]
     assert "recorded" in str(end) and "from 0.80 s on" in str(end) and "recorded  " not in str(runs[0])

@@ -55,9 +55,8 @@ def plot_run_footholds(recording: Recording) -> Figure:
         chart.add_patch(
             Polygon(corners[len(planned) + number], facecolor=colour, edgecolor=colour, alpha=0.45, linewidth=1.2)
         )
-        chart.annotate(
-            f"{interval.start_s:.1f}", interval.position_W[:2], color=TEXT, fontsize=7, ha="center", va="center"
-        )
+        text = _made_at(recording, interval.start_s)
+        chart.annotate(text, interval.position_W[:2], color=TEXT, fontsize=7, ha="center", va="center")
     times = np.linspace(0.0, recording.plan.duration(), 300)
     first = recording.plan.sample(times).com_W  # type: ignore[attr-defined]
     chart.plot(first[:, 0], first[:, 1], color=PLANNED, linewidth=1.2, linestyle=(0, (3, 2)))
@@ -81,6 +80,13 @@ def plot_run_footholds(recording: Recording) -> Figure:
     label(chart, x="x [m]", y="y [m]", title="Footholds, with the time at which each was made [s]")
     legend(figure, handles=handles, loc="outside lower center", ncol=min(len(handles), 5))
     return figure
+
+
+def _made_at(recording: Recording, start_s: float) -> str:
+    """Time of a contact; of one that was there when what was kept of a run begins, only that it is older."""
+    begins_s = float(recording.times_s[0])
+    kept_only = begins_s > 1.5 / FRAME_RATE
+    return f"< {begins_s:.1f}" if kept_only and start_s < begins_s + 0.5 / FRAME_RATE else f"{start_s:.1f}"
 
 
 def _tail(recording: Recording, start: int) -> Array:
