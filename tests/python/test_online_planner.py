@@ -4,15 +4,17 @@ import gc
 import subprocess
 import sys
 import threading
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import mcplan as mp
+from mcplan.errors import InvalidArgument
 from mcplan.online import MeasuredState, OnlineOptions, Planner
 from mcplan.online.pacing import Pace, distances, steps_left
-from mcplan.online.planner import with_feet_kept_up
+from mcplan.online.planner import Update, with_feet_kept_up
 from mcplan.online.reach import widened
 from mcplan.running import chosen_options
 from planned_states import state_at
@@ -123,6 +125,24 @@ def test_a_state_that_waits_is_replaced_by_a_later_one(plan):
             last = planner.submit(state(plan, t))
         update = planner.wait()
     assert update.ticket == last and update.begins_s == 0.8
+
+
+@pytest.mark.parametrize(
+    ("wrong", "error", "named"),
+    [
+        ({"plan": "plan.npz"}, InvalidArgument, "update.plan"),
+        ({"begins_s": np.nan}, mp.InvalidInput, "update.begins_s"),
+        ({"begins_s": "now"}, InvalidArgument, "update.begins_s"),
+    ],
+)
+def test_an_update_made_by_hand_is_refused_where_it_says_nothing(plan, wrong, error, named):
+    good = Update(plan, 0.5, 0.01, "solved", True, 1.0, "", "same_sequence", 1)
+    with Planner(plan) as planner:
+        with pytest.raises(error, match=named):
+            planner.take_over(replace(good, **wrong))
+        assert planner.plan is plan and planner.begins_s == 0.0
+        planner.take_over(good)
+        assert planner.begins_s == 0.5
 
 
 def threads():

@@ -182,13 +182,16 @@ class Planner:
         """The controller follows this update from now on: the next plans are made from it.
 
         Raises:
-            InvalidArgument: It is no Update.
-            InvalidInput: It has no plan.
+            InvalidArgument: It is no Update, or what it has for a plan and its begin is none.
+            InvalidInput: It has no plan, or begins at no finite time.
         """
         require("update", update, Update)
         if update.plan is None:
             raise InvalidInput("update", "must have a plan", update.message)
-        self._under_way = update.plan, update.begins_s
+        require("update.plan", update.plan, Plan)
+        if not np.isfinite(require_number("update.begins_s", update.begins_s)):
+            raise InvalidInput("update.begins_s", "must be finite", shown(update.begins_s))
+        self._under_way = update.plan, float(update.begins_s)
 
     def close(self) -> None:
         """End the thread after what it computes now."""
