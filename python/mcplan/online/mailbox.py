@@ -8,11 +8,11 @@ from typing import Generic, TypeVar
 
 from mcplan.errors import InvalidInput
 
-Asked = TypeVar("Asked")
+Request = TypeVar("Request")
 Done = TypeVar("Done")
 
 
-class Mailbox(Generic[Asked, Done]):
+class Mailbox(Generic[Request, Done]):
     """One state waits at most, with what is asked of it, and one update: later ones replace them.
 
     It knows no planner, so that the thread that serves it does not keep a planner alive that nobody uses any more.
@@ -20,7 +20,7 @@ class Mailbox(Generic[Asked, Done]):
 
     def __init__(self) -> None:
         self._lock = threading.Condition()
-        self._waiting: tuple[int, Asked] | None = None
+        self._waiting: tuple[int, Request] | None = None
         self._done: Done | None = None
         self._computing = self._closed = False
         self._tickets = 0
@@ -31,7 +31,7 @@ class Mailbox(Generic[Asked, Done]):
         with self._lock:
             return self._computing or self._waiting is not None
 
-    def submit(self, asked: Asked) -> int:
+    def submit(self, request: Request) -> int:
         """Put a state in; returns its number, from 1 on.
 
         Raises:
@@ -41,7 +41,7 @@ class Mailbox(Generic[Asked, Done]):
             if self._closed:
                 raise InvalidInput("planner", "must be open: it was closed")
             self._tickets += 1
-            self._waiting = (self._tickets, asked)
+            self._waiting = (self._tickets, request)
             self._lock.notify_all()
             return self._tickets
 
@@ -63,17 +63,17 @@ class Mailbox(Generic[Asked, Done]):
             self._closed, self._waiting = True, None
             self._lock.notify_all()
 
-    def serve(self, compute: Callable[[int, Asked], Done | None]) -> None:
+    def serve(self, compute: Callable[[int, Request], Done | None]) -> None:
         """Compute from what is submitted, one after the other, until the mailbox is closed. For the thread."""
         while True:
             with self._lock:
                 self._lock.wait_for(lambda: self._closed or self._waiting is not None)
                 if self._closed or self._waiting is None:
                     return
-                (ticket, asked), self._waiting = self._waiting, None
+                (ticket, request), self._waiting = self._waiting, None
                 self._computing = True
-            done = compute(ticket, asked)
-            del asked
+            done = compute(ticket, request)
+            del request
             with self._lock:
                 self._done, self._computing = done, False
                 self._lock.notify_all()

@@ -80,7 +80,7 @@ class Update:
 
 
 #: A state, and options for this time only.
-Asked = tuple[MeasuredState, Mapping[str, Any]]
+Request = tuple[MeasuredState, Mapping[str, Any]]
 
 
 class Planner:
@@ -130,7 +130,7 @@ class Planner:
         self.scene: Scene | None = None
         self.robots: list[Robot] = [plan.robot]
         self._named: Mapping[str, Any] = named
-        self._mailbox: Mailbox[Asked, Update] = Mailbox()
+        self._mailbox: Mailbox[Request, Update] = Mailbox()
         work = partial(_work, weakref.ref(self), self._mailbox)
         self._thread = threading.Thread(target=work, name="mcplan.online", daemon=True)
         self._thread.start()
@@ -144,7 +144,7 @@ class Planner:
 
     @property
     def begins_s(self) -> float:
-        """Time of the clock at which it began."""
+        """Time of the clock at which it began [s]."""
         return self._under_way[1]
 
     @property
@@ -204,8 +204,8 @@ class Planner:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
         self.close()
 
-    def _update(self, ticket: int, asked: Asked) -> Update:
-        state, named = asked
+    def _update(self, ticket: int, request: Request) -> Update:
+        state, named = request
         plan, begins_s = self._under_way
         return self._computed(ticket, state, plan, begins_s, {**self._named, **named})
 
@@ -251,11 +251,11 @@ class Planner:
         )
 
 
-def _work(planner: weakref.ref[Planner], mailbox: Mailbox[Asked, Update]) -> None:
+def _work(planner: weakref.ref[Planner], mailbox: Mailbox[Request, Update]) -> None:
     """What the thread of a planner does: it knows the planner only while it computes."""
 
-    def update(ticket: int, asked: Asked) -> Update | None:
+    def update(ticket: int, request: Request) -> Update | None:
         at_work = planner()
-        return None if at_work is None else at_work._update(ticket, asked)
+        return None if at_work is None else at_work._update(ticket, request)
 
     mailbox.serve(update)

@@ -85,8 +85,7 @@ def plot_run_footholds(recording: Recording) -> Figure:
 def _made_at(recording: Recording, start_s: float) -> str:
     """Time of a contact; of one that was there when what was kept of a run begins, only that it is older."""
     begins_s = float(recording.times_s[0])
-    kept_only = begins_s > 1.5 / FRAME_RATE
-    return f"< {begins_s:.1f}" if kept_only and start_s < begins_s + 0.5 / FRAME_RATE else f"{start_s:.1f}"
+    return f"< {begins_s:.1f}" if 0.0 < begins_s and start_s <= begins_s else f"{start_s:.1f}"
 
 
 def _tail(recording: Recording, start: int) -> Array:
