@@ -40,7 +40,7 @@ def test_planning_needs_neither_a_simulator_nor_a_urdf():
 
 
 def test_what_is_submitted_comes_back_as_the_plan_that_replan_makes(plan):
-    measured = state(plan, 1.0, push=(0.0, 0.1, 0.0))
+    measured = state(plan, 1.0, push=(0.0, 0.2, 0.0))
     with Planner(plan) as planner:
         assert planner.poll() is None
         ticket = planner.submit(measured)
@@ -50,6 +50,19 @@ def test_what_is_submitted_comes_back_as_the_plan_that_replan_makes(plan):
     assert update.ticket == ticket == 1 and update.usable and update.begins_s == 1.0
     assert update.status == expected.report.status.name and update.plan.knots == expected.plan.knots
     assert update.kept_until_s == 1.0 + expected.report.kept_until_s and update.took_s > 0.0
+
+
+def test_a_robot_that_hangs_a_little_lower_than_planned_goes_on_from_the_planned_height(plan):
+    exact, measured = state(plan, 1.0), state(plan, 1.0, push=(0.0, 0.05, -0.02))
+    measured.knot.com_W = measured.knot.com_W - [0.0, 0.01, 0.015]
+    begins = []
+    for margin_m in (0.03, 0.0):
+        with Planner(plan, height_margin_m=margin_m) as planner:
+            planner.submit(measured)
+            begins.append(planner.wait().plan.knots[0])
+    assert begins[0].com_W[2] == exact.knot.com_W[2] and begins[0].com_velocity_W[2] == exact.knot.com_velocity_W[2]
+    np.testing.assert_array_equal(begins[0].com_W[:2], measured.knot.com_W[:2])
+    np.testing.assert_array_equal(begins[1].com_W, measured.knot.com_W)
 
 
 @pytest.mark.parametrize(
@@ -312,6 +325,9 @@ def test_what_would_never_come_to_pass_is_refused(named, says):
         ({"command": (1.0,)}, "command: must be a ddp.VelocityCommand or three numbers"),
         ({"latensy": 3.0}, "latensy: no such option"),
         ({"start_slack_s": -1.0}, "start_slack_s"),
+        ({"height_margin_m": -0.1}, "height_margin_m: must be 0 at least"),
+        ({"height_margin_m": float("nan")}, "height_margin_m: must be 0 at least"),
+        ({"height_margin_m": "a"}, "height_margin_m: must be a number"),
     ],
 )
 def test_a_planner_is_not_made_of_what_it_cannot_plan_with(plan, named, says):

@@ -53,6 +53,15 @@ def test_references_go_on_without_jumps(plan):
     assert np.linalg.norm(np.diff(run.com_plan_W, n=2, axis=0), axis=1).max() / step**2 < 50.0
 
 
+@pytest.mark.parametrize("mass_scale", [1.1, 0.9])
+def test_a_robot_of_another_mass_than_its_model_keeps_its_height(plan, mass_scale):
+    """Plan after plan from the measured height it came down by 0.13 m in these 3 s, or rose by 43 mm."""
+    told = {"mass_scale": mass_scale, "latency": LATENCY, "command": (0.0, 0.0, 0.0), "self_contacts": False}
+    run = mp.run(plan, duration=3.0, **told)
+    height_m = run.recording.com_W[:, 2]
+    assert not run.measures.fell and np.ptp(height_m) < 0.015
+
+
 def test_a_push_that_is_a_fall_open_loop_is_survived(plan):
     """250 N to the left for 0.2 s as the left foot has left the ground."""
     told = {"push": (250.0, 0.2, 1.4, 90.0), "latency": LATENCY, "self_contacts": False, "duration": 3.2}

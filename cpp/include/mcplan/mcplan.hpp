@@ -18,6 +18,7 @@
 #include "mcplan/nlp/problem.hpp"
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/online/following.hpp"
+#include "mcplan/online/planned_height.hpp"
 #include "mcplan/online/planner.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/force_laws.hpp"

@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 #include "mcplan/online/following.hpp"
+#include "mcplan/online/planned_height.hpp"
 
 namespace mcplan::bindings {
 
@@ -14,6 +15,10 @@ void bind_online(py::module_& parent) {
   m.def("with_feet_kept_up", &online::with_feet_kept_up, py::arg("plan"), py::call_guard<py::gil_scoped_release>(),
         "The plan with the ways of feet that are in the air at its start kept from the ground, and raised over their "
         "splines by 0.5 m/s at most. Raises InvalidPlan.");
+  m.def("with_planned_height", &online::with_planned_height, py::arg("measured"), py::arg("plan"), py::arg("t"),
+        py::arg("margin_m") = online::kHeightMargin_m,
+        "The state from which to plan on at time t [s] in the plan under way: the measured one, but with height and "
+        "vertical velocity of the CoM as planned where they are off by less than a margin [m].");
 }
 
 }  // namespace mcplan::bindings

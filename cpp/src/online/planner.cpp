@@ -34,12 +34,15 @@ struct Question {
 };
 
 PlanResult first_usable(const Question& question) {
-  const double t = std::clamp(question.state.time_s - question.begins_s, 0.0, question.plan->duration());
+  const double t_now = question.state.time_s - question.begins_s, t = std::clamp(t_now, 0.0, question.plan->duration());
   const Scene& scene = question.scene ? *question.scene : question.plan->scene;
+  ddp::Measured measured = question.state.measured;
+  measured.state =
+      with_planned_height(std::move(measured.state), *question.plan, t_now, question.options.height_margin_m);
   std::optional<PlanResult> found;
   ddp::ReplanOptions options = question.options.replan;
   for (const Robot& robot : *question.robots) {
-    PlanResult result = ddp::replan(*question.plan, t, question.state.measured, scene, robot, options);
+    PlanResult result = ddp::replan(*question.plan, t, measured, scene, robot, options);
     options.crossing = true;  // those after the first are for emergencies
     const bool usable = follows(result.report, question.options.period_s);
     // One that keeps all limits for a while only, that stops, or that does not quite catch the robot is second to one
@@ -77,6 +80,8 @@ void PlannerOptions::validate() const {
   replan.validate();
   if (!(period_s > 0.0 && std::isfinite(period_s)))
     throw InvalidOptions("period_s", "must be positive", std::to_string(period_s));
+  if (!(height_margin_m >= 0.0))
+    throw InvalidOptions("height_margin_m", "must be 0 at least", std::to_string(height_margin_m));
 }
 
 struct Planner::Work {

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mcplan._core import Knot, Plan, PlanFrom, Status
-from mcplan._core.online import follows, with_feet_kept_up
+from mcplan._core.online import follows, with_feet_kept_up, with_planned_height
 from mcplan.arguments import require, require_number
 from mcplan.errors import InvalidInput, InvalidOptions, shown
 from mcplan.solve import command_of, replan, replan_options
@@ -95,6 +95,9 @@ class Planner:
         command: Velocity to walk at, ahead, to the left [m/s] and turning [rad/s]; None: to the scene's goal.
         period_s: How often states are submitted: a plan that was cut short is worth following if it is good for twice
             that.
+        height_margin_m: Where the CoM's height is off the planned one by less than this [m], new plans begin at the latter: a
+            controller holds it with a small error, a robot with a payload for example hangs lower, and plan after plan
+            that begins there sinks. 0: as measured.
         **named: Options of mcplan.replan by name, among them ``time_limit`` [s]. ``recovery_first`` is on here.
 
     Attributes:
@@ -116,6 +119,7 @@ class Planner:
         *,
         command: tuple[float, float, float] | None = None,
         period_s: float = 0.1,
+        height_margin_m: float = 0.03,
         **named: Any,
     ) -> None:
         require("plan", plan, Plan)
@@ -123,10 +127,12 @@ class Planner:
             raise InvalidInput("begins_s", "must be finite", shown(begins_s))
         if not 0.0 < require_number("period_s", period_s) < np.inf:
             raise InvalidOptions("period_s", "must be positive", shown(period_s))
+        if not require_number("height_margin_m", height_margin_m) >= 0.0:
+            raise InvalidOptions("height_margin_m", "must be 0 at least", shown(height_margin_m))
         command_of(command)
         replan_options(named)
         self._under_way = plan, float(begins_s)  # one object, as both change at once beside the thread
-        self.command, self.period_s = command, period_s
+        self.command, self.period_s, self._height_margin_m = command, period_s, float(height_margin_m)
         self.scene: Scene | None = None
         self.robots: list[Robot] = [plan.robot]
         self._named: Mapping[str, Any] = named
@@ -215,11 +221,13 @@ class Planner:
         began = time.perf_counter()
         found: PlanResult | None = None
         try:
-            t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
+            t_now = state.time_s - begins_s
+            t = min(max(t_now, 0.0), float(plan.duration()))
+            knot = with_planned_height(state.knot, plan, t_now, self._height_margin_m)
             for i, robot in enumerate(self.robots):
                 # While it is pushed, every new plan takes the push for over. Robots after the first are for emergencies.
                 told = {"recovery_first": True, "crossing": i > 0, **named}
-                result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, robot, told)
+                result = replan(plan, t, knot, state.contacts, self.command, self.scene, robot, told)
                 usable = follows(result.report, self.period_s)
                 if found is None or (usable and not follows(found.report, self.period_s)):
                     found = result

@@ -30,6 +30,7 @@ from .quadratic_program import Problem, QuadraticProgram
 from .references import References
 from .robot_dynamics import EndEffectorMotion, RobotDynamics
 from .separation import Separation
+from .unknown_load import UnknownLoad
 
 if TYPE_CHECKING:
     from mcplan._core import Plan, Scene
@@ -110,6 +111,7 @@ class Controller:
         self.soles = [corners(end.half_size) for end in urdf_model.robot.end_effectors]
         self.feet = [end.kind == "foot" for end in urdf_model.robot.end_effectors]
         self.contacts, self._late = [Contact() for _ in self.points], LateLandings()
+        self.load = UnknownLoad(references.dt_s)
         self.qp = QuadraticProgram()
         self.torques = np.zeros(self.nv - 6)
         self.surfaces = [np.asarray(s.vertices_W, float) for s in scene.surfaces]
@@ -130,6 +132,9 @@ class Controller:
         if self._live is not None:
             self.references, n = self._live.window(n)
         self.dynamics.update(configuration, velocity)
+        pressing = [contact.mode is Mode.CONTACT for contact in self.contacts]
+        as_expected = any(pressing) and np.array_equal(pressing, in_contact)
+        self.load.update(float(self.dynamics.com_velocity_W[2]), as_expected)
         motions = [self.dynamics.end_effector(i) for i in range(len(self.contacts))]
         on_ground = self._late.update(self.contacts, list(self.references.surfaces[n] >= 0), self.references.dt_s)
         for i, (contact, planned) in enumerate(zip(self.contacts, on_ground, strict=True)):
@@ -146,6 +151,7 @@ class Controller:
             acceleration, forces = found[: self.nv], found[self.nv : self.nv + force_map.shape[1]]
             tau = self.dynamics.inertia[6:] @ acceleration + self.dynamics.bias[6:] - force_map[6:] @ forces
             self.torques = np.clip(tau, *self.motors.bounds(velocity[6:]))
+            self.load.predict(float(self.dynamics.com_jacobian[2] @ acceleration + self.dynamics.com_drift[2]))
         return Command(self.torques, found is not None)
 
     def set_plan(self, plan: Plan, t0: float) -> None:
@@ -245,7 +251,7 @@ class Controller:
         for i, width in zip(supporting, sizes, strict=True):
             points, motion = self.points[i], motions[i]
             force_map[:, at : at + width] = motion.jacobian.T @ points.map(motion.rotation_W)
-            desired = points.distribute(self._planned_force(n, i), self._pressure(n, i, motion))
+            desired = points.distribute(self.references.forces_W[n, i], self._pressure(n, i, motion))
             desired += points.twist(float(self.references.moments_W[n, i] @ motion.rotation_W[:, 2]), motion.rotation_W)
             gradient[nv + at : nv + at + width] = -gains.force_weight * desired
             cone = self.pyramids[max(self._surface(n, i), 0)]
@@ -305,7 +311,7 @@ class Controller:
             gains.com_kp,
             ref.com_W[n] - dynamics.com_W,
             ref.com_velocity_W[n] - dynamics.com_velocity_W,
-            ref.com_acceleration_W[n],
+            ref.com_acceleration_W[n] - np.array([0.0, 0.0, self.load.acceleration]),
         )
         add(gains.com_weight, dynamics.com_jacobian, dynamics.com_drift, desired)
         rotation = rotation_vector(ref.base_WB[n] @ dynamics.base_WB.T)
@@ -351,9 +357,6 @@ class Controller:
                 continue  # it is never in contact again: the posture task moves it
             add(weight, motion.jacobian[rows], motion.drift[rows], desired[rows])
         return np.vstack(jacobians), np.concatenate(values)
-
-    def _planned_force(self, n: int, end: int) -> Array:
-        return self.references.forces_W[n, end]
 
     def _pressure(self, n: int, end: int, motion: EndEffectorMotion) -> Array:
         """(2,) the planned centre of pressure in the contact frame [m]."""

@@ -44,7 +44,7 @@ MeasuredState state(const Plan& plan, double t, double clock_s, const Eigen::Vec
 }  // namespace
 
 TEST_CASE("what is submitted comes back as the plan that replan makes, from the planner's thread") {
-  const MeasuredState measured = state(walk(), 1.0, 1.0, {0.0, 0.1, 0.0});
+  const MeasuredState measured = state(walk(), 1.0, 1.0, {0.0, 0.2, 0.0});
   Planner planner(walk());
   CHECK(!planner.poll());
   const std::uint64_t ticket = planner.submit(measured);
@@ -64,6 +64,22 @@ TEST_CASE("what is submitted comes back as the plan that replan makes, from the 
   for (std::size_t k = 0; k < expected.plan.knots.size(); ++k)
     CHECK(update->result->plan.knots[k].com_W == expected.plan.knots[k].com_W);
   CHECK(check(update->result->plan, update->result->plan.scene, walk().robot).ok());
+}
+
+TEST_CASE("a robot that is off the planned height by little goes on from it, but for a margin of zero") {
+  const MeasuredState measured = state(walk(), 1.0, 1.0, {0.0, 0.0, -0.05});
+  PlannerOptions options;
+  for (const double margin : {0.03, 0.0}) {
+    options.height_margin_m = margin;
+    Planner planner(walk(), 0.0, options);
+    planner.submit(measured);
+    const std::optional<Update> update = planner.wait();
+    REQUIRE(update);
+    REQUIRE(update->result);
+    const Eigen::Vector3d begin_W = update->result->plan.knots.front().com_velocity_W;
+    const Eigen::Vector3d off_W = begin_W - walk().at(1.0).com_velocity_W;
+    CHECK(off_W.norm() == doctest::Approx(margin > 0.0 ? 0.0 : 0.05));
+  }
 }
 
 TEST_CASE("the next plan is made from the one taken over, by the planner's thread") {
@@ -159,6 +175,9 @@ TEST_CASE("options of a planner are refused by name") {
   PlannerOptions options;
   options.period_s = 0.0;
   CHECK_THROWS_WITH_AS(Planner(walk(), 0.0, options), doctest::Contains("period_s"), InvalidOptions);
+  options = {};
+  options.height_margin_m = -0.01;
+  CHECK_THROWS_WITH_AS(Planner(walk(), 0.0, options), doctest::Contains("height_margin_m"), InvalidOptions);
   options = {};
   options.replan.horizon = -1;
   CHECK_THROWS_WITH_AS(Planner(walk(), 0.0, options), doctest::Contains("horizon"), InvalidOptions);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mcplan/ddp/replan.hpp"
+#include "mcplan/online/planned_height.hpp"
 
 namespace mcplan::online {
 
@@ -42,6 +43,7 @@ inline ddp::ReplanOptions beside_a_controller() {
 struct PlannerOptions {
   ddp::ReplanOptions replan = beside_a_controller();  ///< its command holds until it is changed
   double period_s = 0.1;                              ///< how often states are submitted
+  double height_margin_m = kHeightMargin_m;           ///< up to which plans begin at the planned height, 0: as measured
 
   /// Throws InvalidOptions naming all that is out of its range.
   void validate() const;
