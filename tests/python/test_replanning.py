@@ -452,7 +452,7 @@ def test_what_a_start_is_forgiven_is_what_the_checker_forgives():
         angle, speed = draws.uniform(0.0, 2.0 * np.pi), draws.uniform(0.0, 0.6)
         knot.com_velocity_W = knot.com_velocity_W + speed * np.array([np.cos(angle), np.sin(angle), 0.0])
         knot.com_W = knot.com_W + plan.robot.com_height * draws.uniform(-0.06, 0.06, 3)
-        found = mp.replan(plan, t, knot, contacts=contacts, recovery_first=True)
+        found = mp.replan(plan, t, knot, contacts=contacts, recovery_first=True, horizon=400)
         report, checked = found.report, mp.check(found.plan)
         assert (report.status == mp.Status.solved) == checked.ok(), seed
         assert report.start_violations == checked.start, seed

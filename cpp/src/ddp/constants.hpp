@@ -128,6 +128,8 @@ constexpr double kMinLeverRatio = 0.15;
 
 /// On the state at the start, which is a fact. Chosen: above all weights of the paper.
 constexpr double kPinned = 1000.0;
+/// And of an end that another plan goes on from: what the solve leaves of it is made good by Search::make_exact().
+constexpr double kPinnedEnd = 100.0;
 /// Factor on the weight of the base's angles while discovering, and of robots that are tracked. Measured ("Task").
 constexpr double kFirmAngle = 10.0;
 /// The same on angular momentum and force lines. Measured ("Task"): 0.3 becomes 1.

@@ -104,6 +104,7 @@ bool Search::make_exact(Incumbent& now, const Tuning& tuning, const StopRequest&
     for (int k = 0; k <= problem_->steps; ++k) trajectory.x[k] += dx_[k];
     for (int k = 0; k < problem_->steps; ++k) trajectory.u[k] += du_[k];
     snap_positions(*problem_, now.sequence, trajectory);
+    if (problem_->pinned_end) trajectory.x.back() = problem_->reference.x.back();
   }
   return false;
 }

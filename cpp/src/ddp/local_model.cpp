@@ -18,6 +18,7 @@ void hold_inputs(const Problem& problem, int k, const std::vector<char>* fixed, 
   q.h *= kCostShare;
   q.h.diagonal().array() += 1.0;
   if (k == 0) q.h.diagonal().segment(nx - fixed_states, fixed_states).array() += kFixed;
+  if (!fixed && problem.pinned_end) q.h.diagonal().head(nx).array() += kFixed;
   if (!fixed) return;
   for (std::size_t i = 0; i < fixed->size(); ++i)
     if ((*fixed)[i]) q.h(nx + static_cast<int>(i), nx + static_cast<int>(i)) += kFixed;

@@ -175,7 +175,7 @@ Incumbent from_plan(const Problem& problem, const Plan& plan, int first) {
     for (int l = 0; l < at.end_effector_count(); ++l) {
       const int e = problem.active[l];
       x.segment<3>(at.end(l)) = knot.end_effectors_W[e] / units.length;
-      const bool last = k == problem.steps;
+      const bool last = first + k == static_cast<int>(plan.phases.size());
       state.push_back(surface_here(last ? plan.final_contacts[e] : plan.phases[first + k].contacts[e].surface));
     }
     out.trajectory.x.push_back(x);

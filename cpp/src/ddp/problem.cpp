@@ -312,24 +312,39 @@ void Problem::look_near(int count, double within) {
   rules.look_near(std::move(near));
 }
 
+VectorXd Problem::state_of(const Knot& knot) const {
+  VectorXd x = VectorXd::Zero(layout.nx());
+  x.segment<3>(layout.com()) = knot.com_W / units.length;
+  x.segment<3>(layout.velocity()) = knot.com_velocity_W / units.velocity();
+  // What the base's rates make of it where the momentum was not measured.
+  Vector3d momentum = knot.angular_momentum_W;
+  if (model == Model::lipm || momentum.isZero(0.0)) momentum = robot.inertia.cwiseProduct(knot.base_rpy_rate);
+  for (int a = 0; a < layout.axis_count(); ++a) {
+    x[layout.angle(a)] = knot.base_rpy[layout.axes()[a]];
+    x[layout.momentum(a)] = momentum[layout.axes()[a]] / units.angular_momentum();
+  }
+  for (int l = 0; l < layout.end_effector_count(); ++l)
+    x.segment<3>(layout.end(l)) = knot.end_effectors_W[active[l]] / units.length;
+  return x;
+}
+
+void Problem::set_end(const Knot& state, const ContactState& contacts) {
+  reference.x.back() = state_of(state);
+  goal_contacts = contacts;
+  end_yaw.clear();
+  for (int e : active)
+    end_yaw.push_back(static_cast<int>(state.end_effector_yaw.size()) > e ? state.end_effector_yaw[e]
+                                                                          : state.base_rpy.z());
+  pinned_end = true;
+}
+
 void Problem::set_start(const Knot& state, const ContactState& contacts) {
   const VectorXd goal = reference.x.back();
-  start.setZero();
-  start.segment<3>(layout.com()) = state.com_W / units.length;
-  start.segment<3>(layout.velocity()) = state.com_velocity_W / units.velocity();
+  start = state_of(state);
   base_rpy = state.base_rpy;
-  // What the base's rates make of it where the momentum was not measured.
-  Vector3d momentum = state.angular_momentum_W;
-  if (model == Model::lipm || momentum.isZero(0.0)) momentum = robot.inertia.cwiseProduct(state.base_rpy_rate);
-  for (int a = 0; a < layout.axis_count(); ++a) {
-    start[layout.angle(a)] = state.base_rpy[layout.axes()[a]];
-    start[layout.momentum(a)] = momentum[layout.axes()[a]] / units.angular_momentum();
-  }
   for (int l = 0; l < layout.end_effector_count(); ++l)
     start_yaw[l] = static_cast<int>(state.end_effector_yaw.size()) > active[l] ? state.end_effector_yaw[active[l]]
                                                                                : state.base_rpy.z();
-  for (int l = 0; l < layout.end_effector_count(); ++l)
-    start.segment<3>(layout.end(l)) = state.end_effectors_W[active[l]] / units.length;
   start_contacts = contacts;
   measured = true;
   start_end_velocities_W = state.end_effector_velocities_W;
@@ -339,6 +354,7 @@ void Problem::set_start(const Knot& state, const ContactState& contacts) {
   make_reference(goal);
   start = measured_start;
   reference.x.front() = start;
+  if (pinned_end) reference.x.back() = goal;
   make_slack();
 }
 

@@ -124,7 +124,8 @@ class Problem {
     double weight = 0.0;
   };
   std::vector<Foothold> kept;
-  bool free_end = false;  ///< it ends at rest wherever that is, likewise: places at the end are as free as others
+  bool free_end = false;    ///< it ends at rest wherever that is, likewise: places at the end are as free as others
+  bool pinned_end = false;  ///< it ends in the state of reference.x.back(), which another plan goes on from
   /// Soles that are kept apart along a given level axis, from the other's to the one's, at the knot at which a foot
   /// lands that steps across the other.
   struct Across {
@@ -142,6 +143,7 @@ class Problem {
   ContactState start_contacts, goal_contacts;
   std::vector<double> start_yaw;  ///< [rad] by end-effector: headings of the soles at the start
   double goal_yaw = 0.0;          ///< [rad] and at the goal
+  std::vector<double> end_yaw;    ///< [rad] likewise where the end is pinned; empty: goal_yaw
   Trajectory reference;           ///< x_ref by knot (u empty)
   Eigen::VectorXd start;          ///< x_0 as demanded
 
@@ -192,6 +194,9 @@ class Problem {
   /// Start from a measured state instead of the scene's; `contacts` by active end-effector.
   void set_start(const Knot& state, const ContactState& contacts);
 
+  /// End in a given state instead of at the scene's goal, before set_start(); `contacts` by active end-effector.
+  void set_end(const Knot& state, const ContactState& contacts);
+
  private:
   std::vector<std::vector<std::vector<double>>> foothold_margins_;  // by active end-effector, surface, edge
   std::vector<std::vector<std::vector<double>>> slack_;             // likewise: how far in it has to stand
@@ -204,6 +209,7 @@ class Problem {
   double friction_ratio() const;
   std::vector<StateRule> make_state_rules() const;
   Eigen::VectorXd state_of(const ResolvedStance& stance) const;
+  Eigen::VectorXd state_of(const Knot& knot) const;
   void make_slack();
   void make_foothold_margins();
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;

@@ -202,7 +202,7 @@ void Problem::set_sole_yaw(const ContactSequence& sequence, Trajectory& t) const
       const int last_knot = std::min(k + 1, steps);
       double yaw = 0.0;
       for (int j = first; j <= last_knot; ++j) yaw += rpy(t.x[j]).z() / (last_knot - first + 1);
-      if (k == steps) yaw = goal_yaw;
+      if (k == steps) yaw = end_yaw.empty() ? goal_yaw : end_yaw[l];
       if (first == 0) yaw = start_yaw[l];
       for (int j = first; j <= k; ++j) t.sole_yaw[j][l] = yaw;
     }

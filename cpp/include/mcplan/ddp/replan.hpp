@@ -43,10 +43,12 @@ struct ReplanOptions {
   int phases_min = 6;  ///< the horizon never gets shorter than this: at its end the robot stands
 
   std::optional<VelocityCommand> command;  ///< walk on so instead of to the goal
-  int horizon = 12;                        ///< number of phases that are planned ahead under a command
-  bool other_sequences = true;             ///< where the plan's own sequence does not do, try others near to it
-  bool recovery_first = false;             ///< pushed, steps that catch the robot before its own sequence
-  bool crossing = false;                   ///< and a step of the foot in the air across the one that stands
+  /// Number of phases that are planned ahead under a command. To a goal so many are planned anew, up to where all feet
+  /// stand and have stepped; what comes later stays as it was planned, and is not looked at again.
+  int horizon = 12;
+  bool other_sequences = true;  ///< where the plan's own sequence does not do, try others near to it
+  bool recovery_first = false;  ///< pushed, steps that catch the robot before its own sequence
+  bool crossing = false;        ///< and a step of the foot in the air across the one that stands
 
   /// Iterations times phases, over all sequences, after which no other one is tried: a bound of the time of a call
   /// that, unlike time_limit_s, gives the same plan on any machine. The plan's own sequence gets its iterations anyway,

@@ -52,6 +52,7 @@ class Task final : public CostTerm {
       else
         wi = weight(w.end_effector, w.end_effector_end);
       if (last && problem.free_end && (i < 2 || i >= at.end(0))) wi = i < 2 ? w.com : w.end_effector;
+      if (last && problem.pinned_end) wi = kPinnedEnd;
       if (problem.measured && !last && i == at.velocity() + 2) wi *= kVerticalFirmer;
       if (first && i >= first_pinned) wi = kPinned;
       rows.add_single(wi, step.x[i] - reference[i], i);

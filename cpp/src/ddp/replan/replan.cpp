@@ -15,6 +15,7 @@
 #include "ddp/replan/recovery.hpp"
 #include "ddp/replan/replan_fields.hpp"
 #include "ddp/replan/stops.hpp"
+#include "ddp/replan/tail.hpp"
 #include "ddp/replan/trials.hpp"
 #include "ddp/replan/walk_on.hpp"
 #include "ddp/replan/ways_on.hpp"
@@ -83,7 +84,8 @@ void recover_if_pushed(const Rest& rest, const Now& now, Trials& trials) {
 
 /// By the plan's own sequence, or with a hand where the robot is pushed towards what it can hold on to; which of them
 /// comes first is a matter of how hard. The own one is always tried while there is time.
-void as_planned_or_with_a_hand(const Rest& rest, Now& now, Trials& trials) {
+/// `near`: the rest, or as much of it as is planned anew.
+void as_planned_or_with_a_hand(const Rest& rest, const Rest& near, Now& now, Trials& trials) {
   std::vector<Rest> hands;
   if (now.options->other_sequences && now.options->max_work > 0)
     hands = with_hands(rest, *now.scene, *now.robot, now.pushed_W, now.options->committed_s * now.similarity.time,
@@ -92,13 +94,13 @@ void as_planned_or_with_a_hand(const Rest& rest, Now& now, Trials& trials) {
   const bool hard = now.pushed_W.norm() > kHardPush_m_s * now.similarity.velocity() && !hands.empty();
   const bool may_recover = now.options->other_sequences && now.options->max_work > 0 && hands.empty();
   if (may_recover && now.options->recovery_first && is_pushed(now)) recover(rest, now, trials);
-  if (!hard && !trials.solved()) trials.make(now, rest, PlanFrom::same_sequence);
+  if (!hard && !trials.solved()) trials.make(now, near, PlanFrom::same_sequence);
   if (may_recover) recover_if_pushed(rest, now, trials);
   for (std::size_t i = 0; i < hands.size() && !trials.solved() && !trials.out_of_time(); ++i) {
     Now there = now;
     there.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, hands[i]);
     trials.make(there, hands[i], PlanFrom::other_sequence, true);
-    if (hard && i == 0 && !trials.solved() && !trials.out_of_time()) trials.make(now, rest, PlanFrom::same_sequence);
+    if (hard && i == 0 && !trials.solved() && !trials.out_of_time()) trials.make(now, near, PlanFrom::same_sequence);
   }
 }
 
@@ -121,7 +123,7 @@ void go_another_way(const Rest& begun, const Now& now, Trials& trials) {
 
 /// To the scene's goal, by the plan's own sequence, with another step, or by other steps where that does not lead there
 /// (any more).
-void go_to_goal(Rest& rest, Now& now, Trials& trials) {
+void go_to_goal(Rest& rest, const Plan& previous, Now& now, Trials& trials) {
   const Rest begun = rest;
   const bool others = now.options->other_sequences;
   const bool elsewhere = ends_elsewhere(rest, *now.scene, *now.robot);
@@ -129,7 +131,9 @@ void go_to_goal(Rest& rest, Now& now, Trials& trials) {
   stand_on(rest, now.options->phases_min, now.similarity);
   now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
   const bool leads_on = !elsewhere || changes_contacts(rest);
-  if (leads_on) as_planned_or_with_a_hand(rest, now, trials);
+  Rest near = rest;
+  if (!elsewhere && !gone) keep_tail(near, previous, *now.scene, *now.robot, now.options->horizon);
+  if (leads_on) as_planned_or_with_a_hand(rest, near, now, trials);
   if (Rest there = rest; others && stand_on_others(there, *now.scene, *now.robot)) {
     now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, there);
     trials.make(now, there, PlanFrom::other_sequence);
@@ -138,11 +142,11 @@ void go_to_goal(Rest& rest, Now& now, Trials& trials) {
     go_another_way(begun, now, trials);
     if (leads_on && !gone && !trials.solved()) recover(begun, now, trials);
   }
-  if (!leads_on && !trials.best()) as_planned_or_with_a_hand(rest, now, trials);
+  if (!leads_on && !trials.best()) as_planned_or_with_a_hand(rest, near, now, trials);
   if (!others || (!is_pushed(now) && trials.acceptable() && trials.usable()) ||
       (trials.best() && hopeless(*trials.best())))
     return;
-  for (const Rest& other : other_steps(rest, *now.robot, now.similarity)) {
+  for (const Rest& other : other_steps(near, *now.robot, now.similarity)) {
     if (trials.done()) return;
     trials.make(now, other, PlanFrom::other_sequence);
   }
@@ -162,7 +166,7 @@ void follow_command(const Rest& rest, const Now& now, Trials& trials) {
     there.scene = &scene;
     trials.followed(ratio * walk_on(ahead, scene, *now.robot, command, now.options->horizon));
     if (ratio == ratios.front()) {
-      as_planned_or_with_a_hand(ahead, there, trials);
+      as_planned_or_with_a_hand(ahead, ahead, there, trials);
     } else {
       there.surfaces = surfaces_of(scene, *now.robot, now.measured, ahead);
       trials.make(there, ahead, PlanFrom::same_sequence);
@@ -234,7 +238,7 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
     if (options.command)
       follow_command(rest, now, trials);
     else
-      go_to_goal(rest, now, trials);
+      go_to_goal(rest, previous, now, trials);
     if (options.other_sequences && options.max_work > 0) {
       if (!trials.usable()) recover(begun, now, trials);
       stop(begun, now, trials);

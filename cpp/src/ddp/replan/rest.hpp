@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,8 @@
 
 namespace mcplan::ddp {
 
+struct Tail;
+
 /// What is left of a plan: phases, knots and final contacts, without swings. The first knot is the measured state.
 struct Rest {
   Plan plan;
@@ -18,8 +21,9 @@ struct Rest {
   int kept = std::numeric_limits<int>::max();  ///< what is planned up to this phase keeps its footholds
   std::vector<Knot> desired;                   ///< by knot: what the motion is to stay near; empty: what was planned
 
-  bool free_end = false;    ///< it ends at rest, wherever that is
-  double shortest_s = 0.0;  ///< phases may be as short; 0: as the robot's
+  bool free_end = false;             ///< it ends at rest, wherever that is
+  std::shared_ptr<const Tail> tail;  ///< what stays as it was planned, after these phases; null: nothing
+  double shortest_s = 0.0;           ///< phases may be as short; 0: as the robot's
 
   /// A foot that steps across another: the knot at which it lands, both end-effectors, and the level axis from the
   /// other's sole to the one's along which they are kept apart.

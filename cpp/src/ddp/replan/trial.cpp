@@ -10,6 +10,7 @@
 #include "ddp/near_miss.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
+#include "ddp/replan/tail.hpp"
 #include "plan/swings.hpp"
 
 namespace mcplan::ddp {
@@ -38,6 +39,14 @@ Problem pose(const Now& now, const Rest& rest, Tuning& tuning, const Again* agai
   for (int e : problem.active) {
     const int surface = now.measured.contacts[e];
     contacts.push_back(surface == kFree ? kFree : problem.scene.surface_index(now.scene->surfaces[surface].name));
+  }
+  if (rest.tail) {
+    ContactState end;
+    for (int e : problem.active) {
+      const int surface = rest.plan.final_contacts[e];
+      end.push_back(surface == kFree ? kFree : problem.scene.surface_index(now.scene->surfaces[surface].name));
+    }
+    problem.set_end(rest.tail->knots.front(), end);
   }
   problem.set_start(now.measured.state, contacts);
   problem.free_end = rest.free_end;
@@ -96,7 +105,7 @@ CheckResult look(const Plan& plan, const Robot& robot, const Now& now, double un
                  double coarser = 1.0) {
   Tolerances tolerances;
   if (!now.options->search.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
-  tolerances.sample_s = coarser * std::max(tolerances.sample_s, plan.duration() / kFullInstantsMax);
+  tolerances.sample_s = coarser * std::max(tolerances.sample_s, std::min(until_s, plan.duration()) / kFullInstantsMax);
   return check(plan, plan.scene, robot, tolerances, stop, until_s);
 }
 
@@ -104,16 +113,30 @@ CheckResult look(const Plan& plan, const Robot& robot, const Now& now, double un
 /// planned with already at few instants is not looked at closely: that is most of what is tried where little helps, and
 /// a close look takes as long as some iterations.
 void look_at_all(Trial& trial, const Now& now, const StopRequest& stop) {
-  constexpr double kAll = std::numeric_limits<double>::infinity();
-  CheckResult few = look(trial.plan, *now.robot, now, kAll, stop, kCoarser);
+  CheckResult few = look(trial.plan, *now.robot, now, trial.new_until_s, stop, kCoarser);
   if (!few.complete) return;
   trial.coarse = !few.ok();
   if (!trial.coarse) {
-    CheckResult close = look(trial.plan, trial.plan.robot, now, kAll, stop);
+    CheckResult close = look(trial.plan, trial.plan.robot, now, trial.new_until_s, stop);
     if (close.complete) trial.check = std::move(close);
     return;
   }
   trial.check = std::move(few);
+}
+
+/// Put the end where it is pinned, end-effectors from where they land on: what the solve has left of the distance.
+void pin_end(const Problem& problem, Incumbent& at) {
+  if (!problem.pinned_end) return;
+  Trajectory& t = at.trajectory;
+  t.x.back() = problem.reference.x.back();
+  for (int l = 0; l < problem.layout.end_effector_count(); ++l) {
+    const int end = problem.layout.end(l), stride = problem.layout.stride(l), surface = at.sequence.back()[l];
+    if (surface == kFree) continue;
+    int k = problem.steps;
+    for (; k > 1 && at.sequence[k - 1][l] == surface; --k) t.x[k - 1].segment<3>(end) = t.x.back().segment<3>(end);
+    for (int j = k - 1; j < problem.steps; ++j)
+      t.u[j].segment<3>(stride) = t.x[j + 1].segment<3>(end) - t.x[j].segment<3>(end);
+  }
 }
 
 /// The goal is where the plan ends.
@@ -158,9 +181,11 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   settings.patience = kHopelessPatience;
   const int before = report.iterations;
   trial.ending = search.optimise(at, settings, tuning);
+  trial.phases = problem.steps;
   trial.work = (report.iterations - before) * problem.steps;
   const StopRequest late =
       now.deadline->limited() ? StopRequest([&] { return now.deadline->passed(); }) : StopRequest();
+  pin_end(problem, at);
   trial.exact = search.make_exact(at, tuning, late);
   if (!trial.exact && late && late()) return trial;  // there is no time to look at what nobody can follow
   trial.evaluation = search.evaluate(at, tuning);
@@ -170,6 +195,10 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   trial.plan.start_slack_s = now.options->start_slack_s * now.similarity.time;
   put_back(trial.plan, *now.scene, now.surfaces);
   if (rest.free_end) end_there(trial.plan);
+  if (rest.tail) {
+    trial.new_until_s = trial.plan.duration();
+    append(trial.plan, *rest.tail);
+  }
   if (now.given_robot) trial.plan.robot = *now.given_robot;
   // In time or not, the next two steps are looked at; a limit leaves the rest of them to the next call.
   if (late) trial.check = look(trial.plan, trial.plan.robot, now, two_steps_s(trial.plan), {});
@@ -180,6 +209,7 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
 Trial as_planned(const Rest& planned, const Now& now) {
   Trial trial;
   trial.plan = planned.plan;
+  trial.phases = planned.size();
   trial.plan.measured_start = true;
   choose_swings(trial.plan, true, now.under_way);
   trial.exact = true;
@@ -193,7 +223,7 @@ void look_closely(Trial& trial, const Now& now) {
   if (!trial.coarse) return;
   const StopRequest late =
       now.deadline->limited() ? StopRequest([&] { return now.deadline->passed(); }) : StopRequest();
-  CheckResult close = look(trial.plan, trial.plan.robot, now, std::numeric_limits<double>::infinity(), late);
+  CheckResult close = look(trial.plan, trial.plan.robot, now, trial.new_until_s, late);
   if (close.complete)
     trial.check = std::move(close);
   else  // in time or not, the next two steps are looked at
@@ -210,8 +240,7 @@ bool asks_too_much_of_joints(const Trial& trial) {
 }
 
 bool misses_by_little(const Trial& trial, double tolerances) {
-  if (!trial.exact || trial.planned || trial.check.ok() || !trial.check.complete) return false;
-  if (trial.check.checked_until_s < trial.plan.duration()) return false;
+  if (!trial.exact || trial.planned || trial.check.ok() || !trial.seen_in_full()) return false;
   return violation_ratio(trial.check.worst()) <= tolerances;
 }
 

@@ -17,8 +17,7 @@ constexpr double kRecoveryMiss = 60.0;
 
 Status status_of(const Trial& trial) {
   if (trial.ok()) return Status::solved;
-  const bool seen_in_full = trial.check.complete && !(trial.check.checked_until_s < trial.plan.duration());
-  if (trial.ending == Ending::time_limit || !seen_in_full) return Status::time_limit;
+  if (trial.ending == Ending::time_limit || !trial.seen_in_full()) return Status::time_limit;
   if (trial.ending == Ending::interrupted) return Status::interrupted;
   if (trial.ending == Ending::iteration_limit) return Status::iteration_limit;
   return trial.exact && violation_ratio(trial.check.worst()) <= kAcceptable ? Status::acceptable : Status::infeasible;
@@ -51,7 +50,7 @@ std::string message_of(const Trial& best, const Report& report) {
 
 }  // namespace
 
-bool Trials::done() const { return solved() || too_late() || (best_ && iterations_left(best_->plan) < kWorthwhile); }
+bool Trials::done() const { return solved() || too_late() || (best_ && iterations_left(best_->phases) < kWorthwhile); }
 
 bool Trials::acceptable() const {
   if (!best_) return false;
@@ -87,7 +86,7 @@ void Trials::take(std::optional<Trial> trial, PlanFrom from) {
 }
 
 std::optional<Trial> Trials::attempt(const Now& now, const Rest& rest, bool apart, const Again* again) {
-  const int iterations = best_ && !apart ? iterations_left(best_->plan) : kReplanIterations;
+  const int iterations = best_ && !apart ? iterations_left(best_->phases) : kReplanIterations;
   std::optional<Trial> trial = try_out(now, rest, *report_, iterations, again);
   if (trial && !apart) work_ += trial->work;
   return trial;
@@ -106,9 +105,9 @@ void Trials::tell(const std::optional<Trial>& trial, PlanFrom from) const {
   logger(LogLevel::info, line.str());
 }
 
-int Trials::iterations_left(const Plan& plan) const {
+int Trials::iterations_left(int phases) const {
   const int left = now_->options->max_work - work_;
-  return std::clamp(left / std::max(1, static_cast<int>(plan.phases.size())), 0, kReplanIterations);
+  return std::clamp(left / std::max(1, phases), 0, kReplanIterations);
 }
 
 void conclude(Trials& trials, Report& report, PlanResult& out) {

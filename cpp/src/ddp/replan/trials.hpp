@@ -78,8 +78,8 @@ class Trials {
   /// A line of the log: why it was refused, or that it was not.
   void tell(const std::optional<Trial>& trial, PlanFrom from) const;
 
-  /// Iterations that the work which is left allows a sequence about as long as this plan's.
-  int iterations_left(const Plan& plan) const;
+  /// Iterations that the work which is left allows a sequence of so many phases.
+  int iterations_left(int phases) const;
 
   const Now* now_;
   Report* report_;

@@ -1,0 +1,113 @@
+#include "ddp/replan/tail.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "ddp/constants.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+/// So many phases at least are worth being kept. Chosen.
+constexpr int kTailMin = 6;
+
+bool same(const Surface& one, const Surface& other) {
+  return one.name == other.name && one.friction == other.friction && one.vertices_W == other.vertices_W;
+}
+
+/// Whether an end-effector touches nothing from a phase on.
+bool idle_from(const Rest& rest, int k, int e) {
+  for (; k <= rest.size(); ++k)
+    if (rest.surface(k, e) != kFree) return false;
+  return true;
+}
+
+/// Whether the plan can be cut before phase k: all end-effectors stand there, and come from elsewhere than where they
+/// began, or touch nothing at all.
+bool can_be_cut(const Rest& rest, const Robot& robot, int k) {
+  for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e) {
+    if (robot.end_effectors[e].kind != "foot" && idle_from(rest, 0, e)) continue;
+    if (rest.surface(k, e) == kFree) return false;
+    int since = k;
+    while (since > 0 && rest.surface(since - 1, e) == rest.surface(k, e)) --since;
+    if (since == 0) return false;
+  }
+  return true;
+}
+
+/// Whether the last `count` phases are those of the plan before, on surfaces that have not changed.
+bool as_before(const Rest& rest, const Plan& previous, const Scene& scene, int count) {
+  const int here = rest.size() - count, there = static_cast<int>(previous.phases.size()) - count;
+  if (there < 0) return false;
+  for (int j = 0; j <= count; ++j) {
+    if (rest.plan.knots[here + j].com_W != previous.knots[there + j].com_W) return false;
+    for (int e = 0; e < previous.end_effector_count(); ++e) {
+      const int now = rest.surface(here + j, e),
+                before = j < count ? previous.phases[there + j].contacts[e].surface : previous.final_contacts[e];
+      if ((now == kFree) != (before == kFree)) return false;
+      if (now != kFree && !same(scene.surfaces[now], previous.scene.surfaces[before])) return false;
+    }
+  }
+  return true;
+}
+
+/// Soles keep the heading that they have landed with until they lift off, which the knot there has, too.
+void keep_headings(Plan& plan, int first) {
+  for (int e = 0; e < plan.end_effector_count(); ++e)
+    for (int k = first; k < static_cast<int>(plan.phases.size()); ++k) {
+      if (plan.phases[k].contacts[e].surface == kFree) break;
+      if (static_cast<int>(plan.knots[k].end_effector_yaw.size()) <= e) return;
+      plan.knots[k + 1].end_effector_yaw[e] = plan.knots[k].end_effector_yaw[e];
+    }
+}
+
+}  // namespace
+
+void keep_tail(Rest& rest, const Plan& previous, const Scene& scene, const Robot& robot, int phases) {
+  if (rest.free_end || !rest.desired.empty()) return;
+  int cut = std::max(phases, 1);
+  while (cut + kTailMin <= rest.size() && !can_be_cut(rest, robot, cut)) ++cut;
+  const int count = rest.size() - cut;
+  if (count < kTailMin || !as_before(rest, previous, scene, count)) return;
+  auto tail = std::make_shared<Tail>();
+  tail->knots.assign(rest.plan.knots.begin() + cut, rest.plan.knots.end());
+  tail->phases.assign(rest.plan.phases.begin() + cut, rest.plan.phases.end());
+  tail->final_contacts = rest.plan.final_contacts;
+  const int before = static_cast<int>(previous.phases.size()) - count;
+  for (const Swing& swing : previous.swings) {
+    if (swing.end_phase <= before) continue;
+    tail->swings.push_back(swing);
+    tail->swings.back().first_phase = std::max(swing.first_phase - before, 0);
+    tail->swings.back().end_phase -= before;
+  }
+  rest.plan.final_contacts = rest.contacts(cut);
+  rest.plan.phases.resize(cut);
+  rest.plan.knots.resize(cut + 1);
+  rest.planned.resize(cut);
+  rest.tail = std::move(tail);
+}
+
+void append(Plan& plan, const Tail& tail) {
+  const int first = static_cast<int>(plan.phases.size());
+  const std::vector<double> headings = plan.knots.back().end_effector_yaw;
+  plan.knots.pop_back();
+  plan.knots.insert(plan.knots.end(), tail.knots.begin(), tail.knots.end());
+  if (!headings.empty()) plan.knots[first].end_effector_yaw = headings;
+  plan.phases.insert(plan.phases.end(), tail.phases.begin(), tail.phases.end());
+  plan.final_contacts = tail.final_contacts;
+  for (Swing swing : tail.swings) {
+    swing.first_phase += first;
+    swing.end_phase += first;
+    // Of an end-effector that touches nothing, before or after.
+    const auto goes_on = std::find_if(plan.swings.begin(), plan.swings.end(), [&](const Swing& begun) {
+      return begun.end_effector == swing.end_effector && begun.end_phase == first && swing.first_phase == first;
+    });
+    if (goes_on != plan.swings.end())
+      goes_on->end_phase = swing.end_phase;
+    else
+      plan.swings.push_back(swing);
+  }
+  keep_headings(plan, first);
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,121 @@
+#include "ddp/replan/tail.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "mcplan/ddp/plan.hpp"
+#include "mcplan/ddp/replan.hpp"
+#include "mcplan/mcplan.hpp"
+#include "mcplan/plan/checker.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+using namespace mcplan;
+using namespace mcplan::ddp;
+using Eigen::Vector3d;
+
+/// A walk of 26 phases.
+const Plan& walk() {
+  static const Plan plan = ddp::plan(scenes::flat(), load_robot("talos")).plan;
+  return plan;
+}
+
+Measured planned_at(double t) { return {rest_of(walk(), t).plan.knots.front(), {}}; }
+
+PlanResult replanned(const Measured& measured, double t, const Scene& scene, int horizon = ReplanOptions().horizon) {
+  ReplanOptions options;
+  options.horizon = horizon;
+  return ddp::replan(walk(), t, measured, scene, walk().robot, options);
+}
+
+/// How many knots at the end are, to the bit, those of the walk.
+int kept_knots(const Plan& plan) {
+  int count = 0;
+  const auto same = [](const Knot& one, const Knot& other) {
+    return one.com_W == other.com_W && one.com_velocity_W == other.com_velocity_W && one.base_rpy == other.base_rpy &&
+           one.angular_momentum_W == other.angular_momentum_W && one.end_effectors_W == other.end_effectors_W;
+  };
+  while (count < static_cast<int>(plan.knots.size()) &&
+         same(plan.knots[plan.knots.size() - 1 - count], walk().knots[walk().knots.size() - 1 - count]))
+    ++count;
+  return count;
+}
+
+constexpr double kTime_s = 0.6;
+
+}  // namespace
+
+TEST_CASE(
+    "what lies beyond the horizon of a replan stays as it was planned, and all of it is what the checker accepts") {
+  for (const Vector3d& push_m_s : {Vector3d(0.0, 0.0, 0.0), Vector3d(0.05, -0.05, 0.0), Vector3d(0.0, 0.15, 0.02)}) {
+    CAPTURE(push_m_s.transpose());
+    Measured measured = planned_at(kTime_s);
+    measured.state.com_velocity_W += push_m_s;
+    const PlanResult result = replanned(measured, kTime_s, walk().scene);
+    INFO(result.report.message);
+    REQUIRE(result.report.status == Status::solved);
+    REQUIRE(result.report.plan_from == PlanFrom::same_sequence);
+    CHECK(check(result.plan, result.plan.scene, result.plan.robot).ok());
+    const int kept = kept_knots(result.plan);
+    CHECK(kept >= 6);
+    CHECK(static_cast<int>(result.plan.phases.size()) - kept + 1 >= ReplanOptions().horizon);
+    CHECK(result.plan.final_contacts == walk().final_contacts);
+    // What is looked at is what is new.
+    CHECK(result.report.kept_until_s == doctest::Approx(result.plan.knot_times()[result.plan.knots.size() - kept]));
+  }
+}
+
+TEST_CASE("swings and headings go on where what was planned is put after what is new") {
+  const PlanResult result = replanned(planned_at(kTime_s), kTime_s, walk().scene);
+  const Plan& plan = result.plan;
+  const int kept = kept_knots(plan), first = static_cast<int>(plan.knots.size()) - kept;
+  const int before = static_cast<int>(walk().knots.size()) - kept;
+  for (const Swing& swing : walk().swings) {
+    if (swing.first_phase < before) continue;
+    CHECK(std::any_of(plan.swings.begin(), plan.swings.end(), [&](const Swing& other) {
+      return other.end_effector == swing.end_effector && other.first_phase == swing.first_phase - before + first &&
+             other.end_phase == swing.end_phase - before + first && other.height == swing.height;
+    }));
+  }
+  // A hand that touches nothing has one swing, all through the plan.
+  for (int e : {2, 3}) {
+    const auto of_hand = [&](const Swing& swing) { return swing.end_effector == e; };
+    REQUIRE(std::count_if(plan.swings.begin(), plan.swings.end(), of_hand) == 1);
+    const Swing& swing = *std::find_if(plan.swings.begin(), plan.swings.end(), of_hand);
+    CHECK(swing.first_phase == 0);
+    CHECK(swing.end_phase == static_cast<int>(plan.phases.size()));
+  }
+  for (int e : {0, 1})
+    for (int k = first; k < static_cast<int>(plan.phases.size()) && plan.phases[k].contacts[e].surface >= 0; ++k)
+      CHECK(plan.knots[k + 1].end_effector_yaw[e] == plan.knots[first].end_effector_yaw[e]);
+}
+
+TEST_CASE("all of a plan is planned anew with a horizon as long as it is, or where the ground has changed") {
+  CHECK(kept_knots(replanned(planned_at(kTime_s), kTime_s, walk().scene, 100).plan) < 2);
+  Scene slippery = walk().scene;
+  for (Surface& surface : slippery.surfaces) surface.friction *= 0.9;
+  const PlanResult result = replanned(planned_at(kTime_s), kTime_s, slippery);
+  CHECK(kept_knots(result.plan) < 2);
+  CHECK(check(result.plan, slippery, result.plan.robot).ok() == (result.report.status == Status::solved));
+}
+
+TEST_CASE("a plan is cut where all feet stand and have stepped, with six phases at least beyond") {
+  Rest rest = rest_of(walk(), kTime_s);
+  keep_tail(rest, walk(), walk().scene, walk().robot, 3);
+  REQUIRE(rest.tail);
+  CHECK(rest.size() >= 3);
+  CHECK(rest.plan.knots.size() == rest.plan.phases.size() + 1);
+  CHECK(rest.plan.knots.back().com_W == rest.tail->knots.front().com_W);
+  for (int e : {0, 1}) {
+    CHECK(rest.plan.final_contacts[e] >= 0);
+    CHECK(rest.tail->phases.front().contacts[e].surface == rest.plan.final_contacts[e]);
+    bool stepped = false;
+    for (const Phase& phase : rest.plan.phases) stepped = stepped || phase.contacts[e].surface < 0;
+    CHECK(stepped);
+  }
+  Rest whole = rest_of(walk(), kTime_s);
+  keep_tail(whole, walk(), walk().scene, walk().robot, whole.size() - 5);
+  CHECK(!whole.tail);
+}
