@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: Time constant [s]: longer than what a landing or a push does.
-TIME_S = 1.0
+#: Time constant [s]: much longer than what a landing or a push does.
+TIME_S = 3.0
 #: Largest acceleration that is taken for a load's, a fifth of gravity [m/s^2].
 LARGEST = 2.0
 

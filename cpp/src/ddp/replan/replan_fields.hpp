@@ -35,9 +35,8 @@ struct Fields<ddp::ReplanOptions> {
           .at_least(1)
           .at_most(400),
       field("horizon", &Options::horizon, "",
-            "Number of phases that are planned ahead under a velocity command. To a goal so many are planned anew: "
-            "what comes "
-            "later stays as it was planned, and is not looked at again.")
+            "Number of phases that are planned ahead under a velocity command. To a goal twice as many are planned "
+            "anew: what comes later stays as it was planned, and is not looked at again.")
           .at_least(3)
           .at_most(400),
       field("other_sequences", &Options::other_sequences, "",

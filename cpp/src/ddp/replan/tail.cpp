@@ -9,7 +9,7 @@ namespace mcplan::ddp {
 namespace {
 
 /// So many phases at least are worth being kept. Chosen.
-constexpr int kTailMin = 6;
+constexpr int kTailMin = 8;
 
 bool same(const Surface& one, const Surface& other) {
   return one.name == other.name && one.friction == other.friction && one.vertices_W == other.vertices_W;
