@@ -162,7 +162,7 @@ class DdpReplanOptions(DdpOptions, total=False):
     """The horizon never gets shorter than this: at its end the robot stands."""
     horizon: int
     """Number of phases that are planned ahead under a velocity command. To a goal twice as many are planned anew: what
-    comes later stays as it was planned, and is not looked at again."""
+    comes later stays as it was planned."""
     other_sequences: bool
     """Try sequences near to the plan's own where that does not do."""
     recovery_first: bool

@@ -787,7 +787,7 @@ class ReplanOptions:
     @property
     def horizon(self) -> int:
         """
-        Number of phases that are planned ahead under a velocity command. To a goal twice as many are planned anew: what comes later stays as it was planned, and is not looked at again.
+        Number of phases that are planned ahead under a velocity command. To a goal twice as many are planned anew: what comes later stays as it was planned.
         """
     @horizon.setter
     def horizon(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...

@@ -44,7 +44,7 @@ struct ReplanOptions {
 
   std::optional<VelocityCommand> command;  ///< walk on so instead of to the goal
   /// Number of phases that are planned ahead under a command. To a goal twice as many are planned anew, up to where all
-  /// feet stand and have stepped; what comes later stays as it was planned, and is not looked at again.
+  /// feet stand and have stepped; what comes later stays as it was planned.
   int horizon = 12;
   bool other_sequences = true;  ///< where the plan's own sequence does not do, try others near to it
   bool recovery_first = false;  ///< pushed, steps that catch the robot before its own sequence

@@ -138,6 +138,11 @@ void go_to_goal(Rest& rest, const Plan& previous, Now& now, Trials& trials) {
   Rest near = rest;
   if (!elsewhere && !gone) keep_tail(near, previous, *now.scene, *now.robot, kHorizonsToGoal * now.options->horizon);
   if (leads_on) as_planned_or_with_a_hand(rest, near, now, trials);
+  // What stays as it was planned may be what exceeds limits.
+  if (near.tail && !is_pushed(now) && !trials.acceptable()) {
+    near = rest;
+    trials.make(now, rest, PlanFrom::same_sequence, true);
+  }
   if (Rest there = rest; others && stand_on_others(there, *now.scene, *now.robot)) {
     now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, there);
     trials.make(now, there, PlanFrom::other_sequence);

@@ -36,7 +36,7 @@ struct Fields<ddp::ReplanOptions> {
           .at_most(400),
       field("horizon", &Options::horizon, "",
             "Number of phases that are planned ahead under a velocity command. To a goal twice as many are planned "
-            "anew: what comes later stays as it was planned, and is not looked at again.")
+            "anew: what comes later stays as it was planned.")
           .at_least(3)
           .at_most(400),
       field("other_sequences", &Options::other_sequences, "",

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,14 +34,11 @@ struct Trial {
   bool planned = false;  ///< nothing was solved: what was planned
   bool coarse = false;   ///< looked at in few instants, which was enough to see that it exceeds limits
   Ending ending = Ending::done;
-  int phases = 0;                                                ///< that are new
-  int work = 0;                                                  ///< iterations times phases
-  double new_until_s = std::numeric_limits<double>::infinity();  ///< [s] what comes later stays as it was planned
-  /// Whether the checker has looked at all that is new.
-  bool seen_in_full() const {
-    return check.complete && !(check.checked_until_s < std::min(new_until_s, plan.duration()));
-  }
-  /// The checker has seen all of it that is new and accepts it.
+  int phases = 0;  ///< that are new
+  int work = 0;    ///< iterations times phases
+  /// Whether the checker has looked at all of it.
+  bool seen_in_full() const { return check.complete && !(check.checked_until_s < plan.duration()); }
+  /// The checker has seen all of it and accepts it.
   bool ok() const { return exact && !planned && check.ok() && seen_in_full(); }
 };
 
