@@ -1,5 +1,6 @@
 """What a planner and its thread share: the latest state waits, the latest update is handed out once."""
 
+import sys
 import threading
 
 import pytest
@@ -55,3 +56,11 @@ def test_a_closed_one_takes_nothing_and_drops_what_waits():
     assert seen == [] and mailbox.wait(60.0) is None and not mailbox.busy
     with pytest.raises(mp.InvalidInput, match="planner: must be open"):
         mailbox.submit("late")
+
+
+def test_a_thread_that_ends_with_an_exception_leaves_nobody_waiting():
+    mailbox = Mailbox()
+    mailbox.submit("state")
+    with pytest.raises(SystemExit):
+        mailbox.serve(lambda *_: sys.exit(3))
+    assert mailbox.wait(60.0) is None and not mailbox.busy

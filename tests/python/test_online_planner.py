@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -172,6 +173,41 @@ def test_a_planner_that_nobody_uses_any_more_ends_its_thread_without_being_close
     gc.collect()
     mine.join(timeout=60.0)
     assert not mine.is_alive() and mine not in threads()
+
+
+def test_python_ends_while_a_planner_computes():
+    script = """
+import mcplan as mp
+from planned_states import state_at
+from mcplan.online import MeasuredState, Planner
+plan = mp.plan("flat", "talos").plan
+knot, contacts = state_at(plan, 1.0)
+knot.com_velocity_W = knot.com_velocity_W + [0.0, 0.3, 0.0]
+planner = Planner(plan)
+planner.submit(MeasuredState(1.0, knot, tuple(contacts)))
+while not planner._mailbox._computing:
+    pass
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=Path(__file__).parent)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("raised", [KeyboardInterrupt, SystemExit])
+def test_a_logger_that_raises_ends_no_thread(plan, raised):
+    def log(*_):
+        raise raised
+
+    with Planner(plan, logger=log) as planner:
+        for _ in range(2):
+            planner.submit(state(plan, 1.0, push=(0.0, 0.2, 0.0)))
+            update = planner.wait(60.0)
+            assert update.status == "error" and not planner.busy
+
+
+def test_a_state_from_before_the_plan_under_way_is_refused(plan):
+    with Planner(plan, begins_s=100.0) as planner:
+        planner.submit(state(plan, 1.0))
+        assert "state.time_s: must be no earlier than the plan under way, 100, got 1.0" in planner.wait().message
 
 
 def test_a_state_that_is_refused_leaves_the_plan_and_the_thread_alone(plan):

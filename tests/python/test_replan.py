@@ -58,6 +58,7 @@ def test_any_time_within_the_plan_has_a_result(plan, where):
         ({"com_W": [0.0, 0.0, INFINITE]}, r"measured.com_W: must be finite numbers"),
         ({"com_velocity_W": [NAN] * 3}, r"measured.com_velocity_W: must be finite numbers"),
         ({"base_rpy": [NAN, 0.0, 0.0]}, r"measured.base_rpy: must be finite numbers"),
+        ({"base_rpy": [0.0, 0.0, 1e4]}, r"measured.base_rpy: must be angles of fewer than 1000 turns"),
         ({"base_rpy_rate": [0.0, -INFINITE, 0.0]}, r"measured.base_rpy_rate: must be finite numbers"),
         ({"angular_momentum_W": [0.0, 0.0, NAN]}, r"measured.angular_momentum_W: must be finite numbers"),
         ({"end_effectors_W": []}, r"measured.end_effectors_W: must be one per end-effector \(4\), got 0"),

@@ -51,3 +51,14 @@ def test_a_step_without_a_solution_says_nothing():
     load = UnknownLoad(DT_S)
     for velocity in (0.0, -1.0, -2.0):  # nothing was predicted
         assert load.update(velocity, True) == 0.0
+
+
+@pytest.mark.parametrize("velocity", [np.nan, np.inf])
+def test_a_reading_that_is_no_number_does_not_stay_in_the_estimate(velocity):
+    load = UnknownLoad(DT_S)
+    observe(load, 0.5, 100)
+    before = load.acceleration
+    load.predict(0.0)
+    assert load.update(velocity, True) == before
+    observe(load, 0.5, 100)
+    assert before < load.acceleration < 0.5

@@ -12,9 +12,9 @@ void bind_ddp_replan(py::module_& m) {
                                          "Raise InvalidOptions naming all that is out of its range.");
   m.def(
       "replan",
-      [](const Plan& previous, double t, const Knot& state, std::vector<int> contacts, const Scene& scene,
-         const Robot& robot, ddp::ReplanOptions options, const ddp::Options& search,
-         std::optional<ddp::VelocityCommand> command) {
+      // By value, as other threads may change them while the GIL is released.
+      [](Plan previous, double t, Knot state, std::vector<int> contacts, Scene scene, Robot robot,
+         ddp::ReplanOptions options, ddp::Options search, std::optional<ddp::VelocityCommand> command) {
         options.search = watched(search);
         options.command = command;
         return interruptible([&] {

@@ -12,9 +12,12 @@ void bind_online(py::module_& parent) {
         "Whether it is better to follow the plan of a replan than to stay with the plan under way: it was made from "
         "the measured state, and it is solved, acceptable, or keeps all limits for twice the time [s] between two "
         "replans.");
-  m.def("with_feet_kept_up", &online::with_feet_kept_up, py::arg("plan"), py::call_guard<py::gil_scoped_release>(),
-        "The plan with the ways of feet that are in the air at its start kept from the ground, and raised over their "
-        "splines by 0.5 m/s at most. Raises InvalidPlan.");
+  m.def(
+      "with_feet_kept_up",
+      [](Plan plan) { return without_gil([&] { return online::with_feet_kept_up(std::move(plan)); }); },
+      py::arg("plan"),
+      "The plan with the ways of feet that are in the air at its start kept from the ground, and raised over their "
+      "splines by 0.5 m/s at most. Raises InvalidPlan.");
   m.def("with_planned_height", &online::with_planned_height, py::arg("measured"), py::arg("plan"), py::arg("t"),
         py::arg("margin_m") = online::kHeightMargin_m,
         "The state from which to plan on at time t [s] in the plan under way: the measured one, but with height and "

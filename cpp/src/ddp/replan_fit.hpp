@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "mcplan/base/error.hpp"
@@ -7,6 +8,9 @@
 #include "mcplan/robot/robot.hpp"
 
 namespace mcplan::ddp {
+
+/// Headings that differ by fewer turns are of a robot that counts them otherwise. Chosen.
+constexpr double kTurnsMax = 1000.0;
 
 /// What replan() relies on beyond a plan that is valid in itself.
 inline void require_fit(const Plan& previous, const Knot& measured, const Robot& robot) {
@@ -32,6 +36,8 @@ inline void require_fit(const Plan& previous, const Knot& measured, const Robot&
   require_finite("com_W", measured.com_W);
   require_finite("com_velocity_W", measured.com_velocity_W);
   require_finite("base_rpy", measured.base_rpy);
+  if (!(measured.base_rpy.cwiseAbs().maxCoeff() < kTurnsMax * 2.0 * M_PI))
+    throw InvalidPlan("measured.base_rpy", "must be angles of fewer than 1000 turns [rad]", text(measured.base_rpy));
   require_finite("base_rpy_rate", measured.base_rpy_rate);
   require_finite("angular_momentum_W", measured.angular_momentum_W);
   for (const Eigen::Vector3d& end : measured.end_effectors_W) require_finite("end_effectors_W", end);

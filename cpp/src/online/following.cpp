@@ -1,7 +1,9 @@
 #include "mcplan/online/following.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "mcplan/plan/checker.hpp"
 #include "plan/swing_lift.hpp"
 
 namespace mcplan::online {
@@ -12,6 +14,11 @@ constexpr double kRise_m_s = 0.5;     // speed at which a foot is raised over it
 constexpr double kSwingRatio = 0.1;   // height of a swing over that of the CoM, where the robot says none
 constexpr double kUsual_s = 0.45;     // duration of a swing, where the robot says none
 constexpr double kHeightRatio = 0.5;  // of the usual height, which a foot keeps half way to its landing
+
+/// Until when [s] a plan keeps all limits, looked at until then.
+double kept_until(const Plan& plan, double until_s) {
+  return check(plan, plan.scene, plan.robot, {}, {}, until_s).kept_until_s;
+}
 
 }  // namespace
 
@@ -41,11 +48,16 @@ Plan with_feet_kept_up(Plan plan) {
       const double above_m = height_W(0.5 * left_s, end) - height_W(left_s, end);
       return kHeightRatio * SwingLift(half_way).value() * usual_m - above_m;
     };
+    const Swing planned = swing;
     if (swing.elapsed_s > 0.0) {
       if (!(lacks_m() > 0.0)) continue;
       swing.height = swing.elapsed_s = 0.0;  // its lift has gone too far to raise it: lifted anew
     }
     swing.height = std::min(swing.height + std::max(lacks_m(), 0.0), kRise_m_s * left_s / SwingLift::kMaxRate);
+    const double kept_s = kept_until(plan, left_s);
+    if (kept_s >= left_s) continue;
+    const Swing changed = std::exchange(swing, planned);
+    if (kept_until(plan, left_s) <= kept_s) swing = changed;  // it was no better as it was planned
   }
   return plan;
 }

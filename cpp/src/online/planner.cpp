@@ -35,6 +35,10 @@ struct Question {
 
 PlanResult first_usable(const Question& question) {
   const double t_now = question.state.time_s - question.begins_s, t = std::clamp(t_now, 0.0, question.plan->duration());
+  if (t_now < -question.options.period_s)
+    throw InvalidInput("state.time_s",
+                       "must be no earlier than the plan under way, " + std::to_string(question.begins_s),
+                       std::to_string(question.state.time_s));
   const Scene& scene = question.scene ? *question.scene : question.plan->scene;
   ddp::Measured measured = question.state.measured;
   measured.state =

@@ -151,7 +151,7 @@ class HorizonPlanner(Planner):
             )
             cycle = planner.step(start)
             new = self._followed(planner.horizon(), first) if cycle.executed else None
-        except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
+        except BaseException as error:  # neither a refused state nor a logger that raises ends the thread
             took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
             return Update(None, state.time_s, took_s, "error", False, state.time_s, text, "previous_plan", ticket)
         self._first_steps = {ticket: first}

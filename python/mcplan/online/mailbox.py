@@ -72,8 +72,11 @@ class Mailbox(Generic[Request, Done]):
                     return
                 (ticket, request), self._waiting = self._waiting, None
                 self._computing = True
-            done = compute(ticket, request)
-            del request
-            with self._lock:
-                self._done, self._computing = done, False
-                self._lock.notify_all()
+            done = None
+            try:
+                done = compute(ticket, request)
+            finally:  # whoever waits must not wait for a thread that has ended
+                with self._lock:
+                    self._done, self._computing = done, False
+                    self._lock.notify_all()
+            del request, done

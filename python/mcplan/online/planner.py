@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import threading
 import time
 import weakref
@@ -139,9 +140,10 @@ class Planner:
         self._mailbox: Mailbox[Request, Update] = Mailbox()
         work = partial(_work, weakref.ref(self), self._mailbox)
         self._thread = threading.Thread(target=work, name="mcplan.online", daemon=True)
+        _running[self._thread] = self._mailbox
         self._thread.start()
         # A planner that nobody uses any more ends its thread, closed or not.
-        weakref.finalize(self, self._mailbox.close)
+        weakref.finalize(self, self._mailbox.close).atexit = False
 
     @property
     def plan(self) -> Plan:
@@ -222,6 +224,10 @@ class Planner:
         found: PlanResult | None = None
         try:
             t_now = state.time_s - begins_s
+            if t_now < -self.period_s:
+                raise InvalidInput(
+                    "state.time_s", f"must be no earlier than the plan under way, {begins_s:.6g}", shown(state.time_s)
+                )
             t = min(max(t_now, 0.0), float(plan.duration()))
             knot = with_planned_height(state.knot, plan, t_now, self._height_margin_m)
             for i, robot in enumerate(self.robots):
@@ -242,7 +248,7 @@ class Planner:
             if found is None:
                 raise InvalidInput("robots", "must be one at least", "none")
             new = with_feet_kept_up(found.plan) if found.plan.phases else None
-        except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
+        except BaseException as error:  # neither a refused state nor a logger that raises ends the thread
             took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
             return Update(None, state.time_s, took_s, "error", False, state.time_s, text, "previous_plan", ticket)
         took_s, report = time.perf_counter() - began, found.report
@@ -257,6 +263,21 @@ class Planner:
             plan_from=report.plan_from.name,
             ticket=ticket,
         )
+
+
+#: Threads of planners and what ends them.
+_running: weakref.WeakKeyDictionary[threading.Thread, Mailbox[Request, Update]] = weakref.WeakKeyDictionary()
+
+
+@atexit.register
+def _end_all() -> None:
+    """When Python ends, what computes without the GIL must have ended: it could not take it any more."""
+    running = list(_running.items())
+    for _, mailbox in running:
+        mailbox.close()
+    for thread, _ in running:
+        if thread.is_alive():
+            thread.join()
 
 
 def _work(planner: weakref.ref[Planner], mailbox: Mailbox[Request, Update]) -> None:

@@ -47,8 +47,9 @@ class UnknownLoad:
         """
         if as_expected and self._predicted is not None and self._velocity is not None:
             error = (velocity - self._velocity) / self.dt_s - self._predicted
-            self.acceleration += self.dt_s / TIME_S * (error - self.acceleration)
-            self.acceleration = float(np.clip(self.acceleration, -LARGEST, LARGEST))
+            if np.isfinite(error):  # one bad reading must not stay in it for good
+                self.acceleration += self.dt_s / TIME_S * (error - self.acceleration)
+                self.acceleration = float(np.clip(self.acceleration, -LARGEST, LARGEST))
         self._velocity, self._predicted = velocity, None
         return self.acceleration
 

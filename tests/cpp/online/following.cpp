@@ -3,13 +3,16 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/ddp/plan.hpp"
+#include "mcplan/plan/checker.hpp"
 #include "scenes.hpp"
 
 using namespace mcplan;
 using namespace mcplan::online;
+using Eigen::Vector3d;
 
 namespace {
 
@@ -66,6 +69,22 @@ TEST_CASE("a foot that is about to land is not kicked up") {
   CHECK(fastest_rise(kicked, 0.05) > 3.0);
   CHECK(fastest_rise(calm, 0.05) < 0.5 + 0.6);
   CHECK(calm.swings.front().height < 0.01);
+}
+
+TEST_CASE("a foot that is lifted over an edge is not let down onto it") {
+  Plan over = landing(0.2, 0.15);
+  Surface edge;
+  edge.name = "edge";
+  edge.thickness = 0.09;
+  const Vector3d middle = over.at(0.1).end_effectors[0].position_W;
+  for (const auto& [x, y] : {std::pair{-0.02, -0.2}, {0.02, -0.2}, {0.02, 0.2}, {-0.02, 0.2}})
+    edge.vertices_W.push_back({middle.x() + x, middle.y() + y, 0.1});
+  over.scene.surfaces.push_back(edge);
+  const auto kept_s = [](const Plan& plan) { return check(plan, plan.scene, plan.robot, {}, {}, 0.2).kept_until_s; };
+  const double before_s = kept_s(over);
+  CHECK(kept_s(with_feet_kept_up(over)) >= before_s);
+  over.scene.surfaces.pop_back();
+  CHECK(with_feet_kept_up(over).swings.front().height < 0.15);  // without the edge it is
 }
 
 TEST_CASE("a foot in the air is raised to half its usual height half way to its landing") {

@@ -73,3 +73,14 @@ TEST_CASE("after its plan the robot is to keep the height at which it ended") {
   CHECK(begin.com_W.z() == walk().at(end_s).com_W.z());
   CHECK(begin.com_velocity_W.z() == 0.0);
 }
+
+TEST_CASE("in flight the robot goes on from where it is") {
+  Plan jump = walk();
+  int k = 0;
+  while (jump.knot_times()[k + 1] < kTime_s) ++k;
+  for (Contact& contact : jump.phases[k].contacts) contact = {};
+  const Knot measured = off_by(kTime_s, {0.0, 0.0, 0.01}, {0.0, 0.0, -0.02});
+  const Knot begin = with_planned_height(measured, jump, kTime_s);
+  CHECK(begin.com_W == measured.com_W);
+  CHECK(begin.com_velocity_W == measured.com_velocity_W);
+}

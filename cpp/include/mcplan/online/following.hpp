@@ -14,7 +14,9 @@ bool follows(const Report& report, double period_s);
 /// The way of an end-effector in the air goes on from where it is by a spline, plus what is left of its lift (Swing).
 /// The spline alone sinks at once, and replan after replan toes come to drag: half way to its landing a foot is to be
 /// half as high as in a swing of usual duration with that much of it left. Where it would not be, it is lifted anew.
-/// With 50 ms to go such a height is a kick: its way is raised by no more than 0.5 m/s. Throws InvalidPlan.
+/// With 50 ms to go such a height is a kick: its way is raised by no more than 0.5 m/s. Where the checker finds that
+/// the way so changed keeps limits for less long, down to an edge that it was lifted over, it stays as it was planned.
+/// Throws InvalidPlan.
 Plan with_feet_kept_up(Plan plan);
 
 }  // namespace mcplan::online

@@ -7,6 +7,7 @@
 
 #include "ddp/constants.hpp"
 #include "ddp/reachable_surfaces.hpp"
+#include "ddp/replan_fit.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/robot/similarity.hpp"
 #include "mcplan/scene/polygon.hpp"

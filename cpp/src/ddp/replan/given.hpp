@@ -13,8 +13,6 @@ namespace mcplan::ddp {
 
 /// Less than this is nothing left of a plan [s]. Chosen, far below a controller's period.
 constexpr double kEnded_s = 1e-6;
-/// Headings that differ by fewer turns are of a robot that counts them otherwise. Chosen.
-constexpr double kTurnsMax = 1000.0;
 /// A heading from which a command leads on [rad], and how far it leads [rad]: a goal's is at most one turn. Chosen.
 constexpr double kHeadingMax = 1.1 * 3.14159265358979323846, kHeadingAhead = 0.85 * 3.14159265358979323846;
 

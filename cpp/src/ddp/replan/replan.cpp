@@ -82,10 +82,21 @@ void recover_if_pushed(const Rest& rest, const Now& now, Trials& trials) {
   if (!trials.solved() || dropped) recover(rest, now, trials);
 }
 
+/// By the plan's own sequence, of which `near` is planned anew, and all of it where what stays as it was planned is
+/// what exceeds limits.
+void by_own_sequence(const Rest& rest, Rest& near, const Now& now, Trials& trials) {
+  trials.make(now, near, PlanFrom::same_sequence);
+  if (!near.tail || trials.acceptable()) return;
+  const bool beyond = trials.best() && misses_from(*trials.best(), near.size());
+  if (is_pushed(now) && !beyond) return;  // the push is what exceeds them
+  near = rest;
+  trials.make(now, near, PlanFrom::same_sequence, true);
+}
+
 /// By the plan's own sequence, or with a hand where the robot is pushed towards what it can hold on to; which of them
 /// comes first is a matter of how hard. The own one is always tried while there is time.
 /// `near`: the rest, or as much of it as is planned anew.
-void as_planned_or_with_a_hand(const Rest& rest, const Rest& near, Now& now, Trials& trials) {
+void as_planned_or_with_a_hand(const Rest& rest, Rest& near, Now& now, Trials& trials) {
   std::vector<Rest> hands;
   if (now.options->other_sequences && now.options->max_work > 0)
     hands = with_hands(rest, *now.scene, *now.robot, now.pushed_W, now.options->committed_s * now.similarity.time,
@@ -94,13 +105,13 @@ void as_planned_or_with_a_hand(const Rest& rest, const Rest& near, Now& now, Tri
   const bool hard = now.pushed_W.norm() > kHardPush_m_s * now.similarity.velocity() && !hands.empty();
   const bool may_recover = now.options->other_sequences && now.options->max_work > 0 && hands.empty();
   if (may_recover && now.options->recovery_first && is_pushed(now)) recover(rest, now, trials);
-  if (!hard && !trials.solved()) trials.make(now, near, PlanFrom::same_sequence);
+  if (!hard && !trials.solved()) by_own_sequence(rest, near, now, trials);
   if (may_recover) recover_if_pushed(rest, now, trials);
   for (std::size_t i = 0; i < hands.size() && !trials.solved() && !trials.out_of_time(); ++i) {
     Now there = now;
     there.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, hands[i]);
     trials.make(there, hands[i], PlanFrom::other_sequence, true);
-    if (hard && i == 0 && !trials.solved() && !trials.out_of_time()) trials.make(now, near, PlanFrom::same_sequence);
+    if (hard && i == 0 && !trials.solved() && !trials.out_of_time()) by_own_sequence(rest, near, now, trials);
   }
 }
 
@@ -136,13 +147,10 @@ void go_to_goal(Rest& rest, const Plan& previous, Now& now, Trials& trials) {
   now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
   const bool leads_on = !elsewhere || changes_contacts(rest);
   Rest near = rest;
-  if (!elsewhere && !gone) keep_tail(near, previous, *now.scene, *now.robot, kHorizonsToGoal * now.options->horizon);
+  if (!elsewhere && !gone)
+    keep_tail(near, previous, *now.scene, *now.robot, now.options->search.model,
+              kHorizonsToGoal * now.options->horizon);
   if (leads_on) as_planned_or_with_a_hand(rest, near, now, trials);
-  // What stays as it was planned may be what exceeds limits.
-  if (near.tail && !is_pushed(now) && !trials.acceptable()) {
-    near = rest;
-    trials.make(now, rest, PlanFrom::same_sequence, true);
-  }
   if (Rest there = rest; others && stand_on_others(there, *now.scene, *now.robot)) {
     now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, there);
     trials.make(now, there, PlanFrom::other_sequence);
@@ -175,7 +183,8 @@ void follow_command(const Rest& rest, const Now& now, Trials& trials) {
     there.scene = &scene;
     trials.followed(ratio * walk_on(ahead, scene, *now.robot, command, now.options->horizon));
     if (ratio == ratios.front()) {
-      as_planned_or_with_a_hand(ahead, ahead, there, trials);
+      Rest near = ahead;
+      as_planned_or_with_a_hand(ahead, near, there, trials);
     } else {
       there.surfaces = surfaces_of(scene, *now.robot, now.measured, ahead);
       trials.make(there, ahead, PlanFrom::same_sequence);

@@ -35,6 +35,16 @@ bool can_be_cut(const Rest& rest, const Robot& robot, int k) {
   return true;
 }
 
+/// Whether a plan is such as the search makes with this model, so that parts of both can be one: forces of the same
+/// law, soles with headings of their own or without.
+bool of_model(const Plan& plan, Model model) {
+  const bool wrench = model == Model::wrench;
+  const ForceLaw law = wrench ? ForceLaw(laws::Wrench()) : ForceLaw(laws::Pendulum());
+  return std::all_of(plan.phases.begin(), plan.phases.end(), [&](const Phase& phase) { return phase.law == law; }) &&
+         std::all_of(plan.knots.begin(), plan.knots.end(),
+                     [&](const Knot& knot) { return knot.end_effector_yaw.empty() != wrench; });
+}
+
 /// Whether the last `count` phases are those of the plan before, on surfaces that have not changed.
 bool as_before(const Rest& rest, const Plan& previous, const Scene& scene, int count) {
   const int here = rest.size() - count, there = static_cast<int>(previous.phases.size()) - count;
@@ -56,15 +66,15 @@ void keep_headings(Plan& plan, int first) {
   for (int e = 0; e < plan.end_effector_count(); ++e)
     for (int k = first; k < static_cast<int>(plan.phases.size()); ++k) {
       if (plan.phases[k].contacts[e].surface == kFree) break;
-      if (static_cast<int>(plan.knots[k].end_effector_yaw.size()) <= e) return;
+      if (plan.knots[k].end_effector_yaw.empty()) return;
       plan.knots[k + 1].end_effector_yaw[e] = plan.knots[k].end_effector_yaw[e];
     }
 }
 
 }  // namespace
 
-void keep_tail(Rest& rest, const Plan& previous, const Scene& scene, const Robot& robot, int phases) {
-  if (rest.free_end || !rest.desired.empty()) return;
+void keep_tail(Rest& rest, const Plan& previous, const Scene& scene, const Robot& robot, Model model, int phases) {
+  if (rest.free_end || !rest.desired.empty() || !of_model(previous, model)) return;
   int cut = std::max(phases, 1);
   while (cut + kTailMin <= rest.size() && !can_be_cut(rest, robot, cut)) ++cut;
   const int count = rest.size() - cut;
@@ -92,7 +102,7 @@ void append(Plan& plan, const Tail& tail) {
   const std::vector<double> headings = plan.knots.back().end_effector_yaw;
   plan.knots.pop_back();
   plan.knots.insert(plan.knots.end(), tail.knots.begin(), tail.knots.end());
-  if (!headings.empty()) plan.knots[first].end_effector_yaw = headings;
+  plan.knots[first].end_effector_yaw = headings;
   plan.phases.insert(plan.phases.end(), tail.phases.begin(), tail.phases.end());
   plan.final_contacts = tail.final_contacts;
   for (Swing swing : tail.swings) {

@@ -242,6 +242,11 @@ bool misses_by_little(const Trial& trial, double tolerances) {
   return violation_ratio(trial.check.worst()) <= tolerances;
 }
 
+bool misses_from(const Trial& trial, int phase) {
+  const std::vector<Violation> violations = trial.check.violations();
+  return std::any_of(violations.begin(), violations.end(), [phase](const Violation& v) { return v.phase >= phase; });
+}
+
 bool hopeless(const Trial& trial) { return !trial.ok() && trial.evaluation.cost > kHopelessWithMore; }
 
 bool better(const Trial& one, const Trial& other) {

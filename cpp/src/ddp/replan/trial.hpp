@@ -64,6 +64,9 @@ bool asks_too_much_of_joints(const Trial& trial);
 /// Whether it is acceptable, though not accepted: planned a little further inside of its limits it may be.
 bool misses_by_little(const Trial& trial, double tolerances);
 
+/// Whether it exceeds a limit from this phase on.
+bool misses_from(const Trial& trial, int phase);
+
 /// Whether it is so far from its limits that another step does not help either.
 bool hopeless(const Trial& trial);
 

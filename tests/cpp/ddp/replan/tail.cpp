@@ -78,6 +78,35 @@ TEST_CASE("what stays as it was planned is looked at, too") {
   CHECK((result.report.status == Status::solved) == check(result.plan, result.plan.scene, result.plan.robot).ok());
 }
 
+TEST_CASE("where what stays as it was planned exceeds limits, all is planned anew, pushed or not") {
+  for (const double push_m_s : {0.0, 0.12}) {
+    CAPTURE(push_m_s);
+    Plan broken = walk();
+    broken.knots[broken.knots.size() - 4].com_velocity_W.y() += 0.3;
+    ReplanOptions options;
+    options.horizon = kNew / 2;
+    Measured measured = planned_at(kTime_s);
+    measured.state.com_velocity_W.x() += push_m_s;
+    const PlanResult result = ddp::replan(broken, kTime_s, measured, options);
+    INFO(result.report.message);
+    CHECK(result.report.status == Status::solved);
+    CHECK(check(result.plan, result.plan.scene, result.plan.robot).ok());
+  }
+}
+
+TEST_CASE("a plan that another model has made is planned anew as a whole") {
+  Plan lipm = walk();
+  for (Knot& knot : lipm.knots) knot.end_effector_yaw.clear();  // as plans of the pendulum have none
+  ReplanOptions options;
+  options.horizon = kNew / 2;
+  const PlanResult result = ddp::replan(lipm, kTime_s, planned_at(kTime_s), options);
+  CHECK(kept_knots(result.plan) < 2);
+  for (const Knot& knot : result.plan.knots) CHECK(knot.end_effector_yaw.size() == 4);
+  Rest rest = rest_of(walk(), kTime_s);
+  keep_tail(rest, walk(), walk().scene, walk().robot, Model::lipm, 3);
+  CHECK(!rest.tail);
+}
+
 TEST_CASE("swings and headings go on where what was planned is put after what is new") {
   const PlanResult result = replanned(planned_at(kTime_s), kTime_s, walk().scene);
   const Plan& plan = result.plan;
@@ -114,7 +143,7 @@ TEST_CASE("all of a plan is planned anew with a horizon that is long enough, or 
 
 TEST_CASE("a plan is cut where all feet stand and have stepped, with eight phases at least beyond") {
   Rest rest = rest_of(walk(), kTime_s);
-  keep_tail(rest, walk(), walk().scene, walk().robot, 3);
+  keep_tail(rest, walk(), walk().scene, walk().robot, Model::wrench, 3);
   REQUIRE(rest.tail);
   CHECK(rest.size() >= 3);
   CHECK(rest.plan.knots.size() == rest.plan.phases.size() + 1);
@@ -127,6 +156,6 @@ TEST_CASE("a plan is cut where all feet stand and have stepped, with eight phase
     CHECK(stepped);
   }
   Rest whole = rest_of(walk(), kTime_s);
-  keep_tail(whole, walk(), walk().scene, walk().robot, whole.size() - 7);
+  keep_tail(whole, walk(), walk().scene, walk().robot, Model::wrench, whole.size() - 7);
   CHECK(!whole.tail);
 }
