@@ -116,6 +116,10 @@ void Problem::make_durations() {
   duration_min = shortest_s / units.time;
   duration_max = longest_s / units.time;
   const double flight_s = by_size(options.flight_duration_min_s, Options().flight_duration_min_s, similarity.time);
+  const bool chosen = options.flight_duration_min_s != Options().flight_duration_min_s;
+  if (chosen && flight_s > longest_s)
+    throw InvalidOptions("flight_duration_min_s", "must be at most the longest phase, " + text(longest_s),
+                         text(flight_s));
   flight_duration_min = std::min(flight_s, longest_s) / units.time;
   const double middle_s = model == Model::wrench ? 0.5 * (shortest_s + longest_s) : kLipmDuration_s * similarity.time;
   duration_initial = (options.duration_initial_s > 0.0 ? options.duration_initial_s : middle_s) / units.time;

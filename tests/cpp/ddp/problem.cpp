@@ -64,6 +64,19 @@ TEST_CASE("end-effectors that may touch nothing cost no variables, but the paper
   }
 }
 
+TEST_CASE("a shortest flight that is asked for is no longer than the longest phase") {
+  mcplan::Robot robot = scenes::humanoid44();
+  robot.phase_duration = {0.2, 0.5};
+  Options options;
+  options.flight_duration_min_s = 0.5;
+  const Problem problem(scenes::flat(), robot, options);
+  CHECK(problem.flight_duration_min * problem.units.time == doctest::Approx(0.5));
+  options.flight_duration_min_s = 0.51;
+  CHECK_THROWS_WITH_AS(Problem(scenes::flat(), robot, options),
+                       doctest::Contains("flight_duration_min_s: must be at most the longest phase, 0.5"),
+                       mcplan::InvalidOptions);
+}
+
 TEST_CASE("phases are first guessed in the middle of their box, in the paper's model at its author's 0.45 s") {
   mcplan::Robot robot = scenes::humanoid44();
   robot.phase_duration = {0.2, 0.5};
