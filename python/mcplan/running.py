@@ -13,6 +13,7 @@ from mcplan._core import Plan, Robot, Scene, Status
 from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean, shown
 from mcplan.kinematics.urdf_model import require_urdf
+from mcplan.online.goals import require_goals
 from mcplan.online.options import OnlineOptions, option_names
 from mcplan.online.steering import ALONE, Beside, require_steerable
 from mcplan.solve import plan as solve
@@ -90,10 +91,14 @@ def first_plan(
 
     Raises:
         InvalidInput: No plan was found, or no robot was named.
+        InvalidOptions: A goal lies over no ground.
         InvalidRobot: It has no URDF.
     """
     begins = _plan_or_walk(scene, robot)
-    require_urdf(begins.robot if isinstance(begins, Plan) else begins[1])  # before a search, not after it
+    ground, walker = (begins.scene, begins.robot) if isinstance(begins, Plan) else begins
+    require_urdf(walker)  # before a search, not after it
+    if online is not None:
+        require_goals(ground, walker, online)
     if online is None or online.engine == "ddp":
         return begins if isinstance(begins, Plan) else _searched(*begins)
     from mcplan.online.horizon_walk import first_walk

@@ -12,9 +12,11 @@ from mcplan.online.goals import (
     NO_NEARER_S,
     Aim,
     is_elsewhere,
+    require_goals,
     turn_to,
     velocity_to,
 )
+from mcplan.online.options import OnlineOptions
 
 GOALS = [
     (1.0, 0.6, np.pi / 2),
@@ -118,3 +120,23 @@ def test_no_steps_are_looked_for_to_a_goal_that_is_turned(robot):
     aim.stopped(0.0, place, 1.0)
     for now_s in (0.0, 10.0, 60.0):
         assert aim.velocity(now_s, place, 1.0) is not None
+
+
+@pytest.mark.parametrize("goal", [(1.0, 50.0, 0.0), (1.0, 6.0, 0.0), (1.0, -5.5, 0.0)])
+def test_goals_over_no_ground_are_refused_before_anything_is_planned(goal, robot, monkeypatch):
+    monkeypatch.setattr("mcplan.running.solve", None)
+    for asked in (goal, [(1.2, 0.3), (*goal, 3.0)]):
+        with pytest.raises(
+            mp.errors.InvalidOptions, match=r"goal\[[01]\]: must lie over a surface.* m beside \"ground\""
+        ):
+            mp.run("flat", robot, goal=asked)
+
+
+def test_goals_are_refused_at_the_height_of_another_surface(robot):
+    with pytest.raises(mp.errors.InvalidOptions, match=r"goal\[0\]: must lie over a surface"):
+        mp.run("stairs_broad", robot, goal=(0.3, 0.0))
+
+
+def test_goals_that_a_foot_reaches_ground_from_are_taken(robot):
+    for y in (0.0, 4.9, 5.1):
+        require_goals(mp.load_scene("flat"), robot, OnlineOptions(goal=((0.0, 1.0, y, 0.0),)))

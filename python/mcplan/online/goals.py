@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan._core import Polygon, require_ground
+from mcplan.errors import InvalidOptions, InvalidScene, apart, shown
+
 if TYPE_CHECKING:
     from mcplan._core import Robot, Scene
+
+    from .options import OnlineOptions
 
 Goal = tuple[float, float, float]
 
@@ -30,6 +35,8 @@ STEERED_PHASES = 6
 LOOKED_FOR_S = 2.0
 #: Where that brings it no nearer, by so much over the height of the CoM, for so long, steps are looked for again [s].
 NEARER_RATIO, NO_NEARER_S = 0.05, 4.0
+#: What is asked of goals: they are at the height of the scene's goal, on its surfaces.
+OVER_GROUND = "must lie over a surface of the scene's goal, at its height, or so near that a foot reaches it"
 
 
 def turn_to(goal: tuple[float, float, float], heading: float) -> float:
@@ -82,6 +89,50 @@ def with_goal(scene: Scene, goal: tuple[float, float, float]) -> Scene:
     moved.goal = stance
     moved.validate()
     return moved
+
+
+def require_goals(scene: Scene, robot: Robot, online: OnlineOptions) -> None:
+    """Raise InvalidOptions naming the first goal that lies over no ground that the scene's goal is on.
+
+    Scene files refuse such goals as far as they can without a robot: here its feet reach that ground from the goal.
+
+    Args:
+        scene: Where to walk.
+        robot: Who walks.
+        online: What is asked for.
+    """
+    for i, (_, x, y, yaw) in enumerate(online.goal):
+        moved = with_goal(scene, (x, y, yaw))
+        try:
+            require_ground(moved)
+        except InvalidScene as error:
+            for found in apart(error):
+                if found.field.startswith("goal"):
+                    raise InvalidOptions(f"goal[{i}]", OVER_GROUND, found.value) from None
+        beside_m, name = _beside(moved)
+        if beside_m > _reach_m(robot):
+            raise InvalidOptions(
+                f"goal[{i}]", OVER_GROUND, f"[{x:.4g}, {y:.4g}], {beside_m:.3g} m beside {shown(name)}"
+            )
+
+
+def _beside(scene: Scene) -> tuple[float, str]:
+    """From the goal to the nearest surface that it is on, on the level [m], and the name of that."""
+    place_W = np.asarray(scene.goal.position_W)
+    names = set(dict(scene.goal.contacts).values())
+    away_m = {
+        surface.name: float(np.hypot(*(Polygon(surface.vertices_W).nearest(place_W) - place_W)[:2]))
+        for surface in scene.surfaces
+        if surface.name in names
+    }
+    name = min(away_m, key=lambda known: away_m[known])
+    return away_m[name], name
+
+
+def _reach_m(robot: Robot) -> float:
+    """How far a foot reaches from the CoM, on the level [m]."""
+    feet = [end for end in robot.end_effectors if end.kind == "foot"] or robot.end_effectors
+    return max(float(np.hypot(*np.maximum(np.abs(end.reach_min_B), np.abs(end.reach_max_B))[:2])) for end in feet)
 
 
 def phases_to(goal: tuple[float, float, float], place_W: NDArray[np.float64], heading: float, robot: Robot) -> int:

@@ -17,6 +17,7 @@ from mcplan.tracking.options import Options, Watch, require_watch
 from mcplan.tracking.runner import robot_for
 
 from .ending import length_of
+from .goals import require_goals
 from .horizon_bases import with_bases
 from .horizon_loop import HorizonLoop
 from .horizon_planner import require_steps
@@ -103,6 +104,7 @@ def _require_valid(
             "plan", "must be a plan of ddp: those with forces at points are replanned by engine 'rhp' alone"
         )
     require_steerable(steer, online)
+    require_goals(plan.scene, plan.robot, online)
     if true_scene is not None:
         true_scene.validate()
         if not np.isnan(online.told_at_s):
