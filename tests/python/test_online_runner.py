@@ -96,6 +96,18 @@ def test_the_command_prints_what_track_prints_and_how_planning_went(plan, tmp_pa
     assert mp.track is not None and len(run.read_bytes()) > 1000
 
 
+def test_a_run_says_what_it_reached_of_a_velocity_that_no_robot_walks_at(plan, tmp_path, capsys):
+    file = tmp_path / "plan.npz"
+    plan.save(file)
+    words = ["run", str(file), "--latency", str(LATENCY), "--duration", "0.5", "--command", "5,0,0"]
+    assert main([*words, "--json"]) == 0
+    (out,) = json.loads(capsys.readouterr().out)["command_reached"]
+    assert out["commanded"] == [5.0, 0.0, 0.0] and (out["from_s"], out["to_s"]) == (0.0, 0.5)
+    assert 0.0 < out["reached"][0] < 0.5
+    assert main(words) == 0
+    assert f"velocity reached            ahead {out['reached'][0]:.3f}" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(("robot", "duration"), [("g1", 1.75), pytest.param("talos", 5.0, marks=pytest.mark.slow)])
 def test_legs_and_arms_that_swing_do_not_turn_the_base_in_replans(robot, duration):
     """They carry momentum that the base does not have: every plan has to lead on to the goal."""

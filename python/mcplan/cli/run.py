@@ -251,6 +251,7 @@ def summary(result: RunResult, plan: Path | None = None) -> dict[str, Any]:
     return {
         **data,
         **finite_items(result.online.as_dict()),
+        "command_reached": [asdict(each) for each in result.command_reached],
         "online_options": finite_items(asdict(result.online_options)),
     }
 

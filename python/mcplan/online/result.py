@@ -17,6 +17,7 @@ from mcplan.tracking.run_files import RUN, Arrays, Header, RunParts, load_run, n
 
 from .measures import OnlineMeasures
 from .options import OnlineOptions, option_names
+from .velocities import CommandReached, commands_reached, reached_text
 
 #: What stands in files of a plan that was followed, beside the plan.
 _OF_PLANS = ("begins_s", "from_s", "took_s", "message")
@@ -62,6 +63,11 @@ class RunResult(TrackingResult):
         """Whether the run went to its end without a fall and, where its length was not asked for, came to its goal."""
         return self.completed and not self._short_of_goal()
 
+    @property
+    def command_reached(self) -> tuple[CommandReached, ...]:
+        """Velocities that were commanded, and at which the robot walked meanwhile."""
+        return commands_reached(self.recording, self.online_options)
+
     def _short_of_goal(self) -> bool:
         """Whether the robot had its time and stands away from its goal."""
         reached_m = REACHED_RATIO * self.recording.plan.robot.com_height
@@ -100,6 +106,8 @@ class RunResult(TrackingResult):
         rows = [row for row in rows_of(self) if row[0] != "base at the end"]
         kept_from_s = self.online.kept_from_s
         kept = [("recorded", f"from {kept_from_s:.2f} s on, as is what is measured")] if kept_from_s > 0.0 else []
+        reached = reached_text(self.command_reached)
+        kept += [("velocity reached", reached)] if reached else []
         return as_text(title, [*kept, *rows[:-2], *online_rows(self.online), *rows[-2:]])
 
 
