@@ -108,6 +108,7 @@ def plan(
     Raises:
         InvalidArgument: An argument is of another type, such as the result that has the plan.
         InvalidOptions: No such option, or its value is out of range.
+        InvalidPlan: ``warm_start`` is a plan of another robot.
         InvalidScene: The scene is malformed or does not fit the robot.
         InvalidRobot: The robot is malformed.
         MissingExtra: With `motion`, the packages of ``pip install 'mcplan[view]'`` are not installed.

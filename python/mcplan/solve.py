@@ -34,7 +34,19 @@ def plan(
         planner = _core.ddp.SwitchedDdp(world, body, chosen)
         warn_of_names(world, body)
         _core.require_standing(world, body)
+        if warm_start is not None:
+            _require_of(body, warm_start)
     return planner.solve() if warm_start is None else planner.solve(warm_start)
+
+
+def _require_of(robot: Robot, warm_start: Plan) -> None:
+    """Raise InvalidPlan for a plan of another robot: contacts go by the number of an end-effector, so it would do for any."""
+    rule = "must be that of the robot that is planned for, "
+    own, other = ([end.name for end in each.end_effectors] for each in (robot, warm_start.robot))
+    if warm_start.robot.name != robot.name:
+        raise InvalidPlan("warm_start.robot.name", rule + shown(robot.name), shown(warm_start.robot.name))
+    if own != other:
+        raise InvalidPlan("warm_start.robot.end_effectors", rule + ", ".join(own), ", ".join(other))
 
 
 def replan(

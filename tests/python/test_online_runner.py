@@ -108,6 +108,20 @@ def test_a_run_says_what_it_reached_of_a_velocity_that_no_robot_walks_at(plan, t
     assert f"velocity reached            ahead {out['reached'][0]:.3f}" in capsys.readouterr().out
 
 
+def test_another_robot_that_cannot_follow_the_plan_is_warned_of_as_track_does(plan, tmp_path, capsys):
+    light = plan.__copy__()
+    robot = plan.robot.__copy__()
+    robot.mass *= 0.8
+    light.robot = robot
+    file = tmp_path / "plan.npz"
+    light.save(file)
+    words = ["run", str(file), "--latency", str(LATENCY), "--duration", "0.1"]
+    assert main([*words, "--robot", "talos"]) == 0
+    assert capsys.readouterr().err.startswith("warning: talos cannot follow the plan: mass at 0.00 s: 0.2, limit 0.1")
+    assert main([*words, "--robot", "talos", "--quiet"]) == main(words) == 0
+    assert "warning" not in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(("robot", "duration"), [("g1", 1.75), pytest.param("talos", 5.0, marks=pytest.mark.slow)])
 def test_legs_and_arms_that_swing_do_not_turn_the_base_in_replans(robot, duration):
     """They carry momentum that the base does not have: every plan has to lead on to the goal."""

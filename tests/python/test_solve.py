@@ -10,6 +10,7 @@ import pytest
 import mcplan as mp
 from mcplan import _core
 from mcplan.solve import make_options
+from standing import standing_plan
 
 
 class Method(enum.Enum):
@@ -91,3 +92,15 @@ def test_options_go_by_their_names():
 def test_a_wrong_option_is_named(options, message):
     with pytest.raises(mp.errors.InvalidOptions, match=message):
         mp.plan("flat", **options)
+
+
+def test_a_plan_of_another_robot_is_no_start():
+    rule = "must be that of the robot that is planned for, "
+    with pytest.raises(mp.errors.InvalidPlan, match=f'warm_start.robot.name: {rule}"talos", got "humanoid44"'):
+        mp.plan("flat", "talos", warm_start=standing_plan())
+    handless = mp.load_robot("humanoid44")
+    handless.end_effectors = handless.end_effectors[:2]
+    with pytest.raises(
+        mp.errors.InvalidPlan, match=f"warm_start.robot.end_effectors: {rule}right_foot, .* got right_foot"
+    ):
+        mp.plan("flat", "humanoid44", warm_start=standing_plan(robot=handless))

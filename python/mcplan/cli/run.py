@@ -95,6 +95,10 @@ KeepOption = Annotated[
 SteerOption = Annotated[
     bool, typer.Option("--steer", help="Walk as the keys of the terminal say, which it names; at real time at most.")
 ]
+QuietOption = Annotated[
+    bool,
+    typer.Option("-q", "--quiet", help="Print no progress on stderr, nor that another robot cannot follow the plan."),
+]
 ReplanningOption = Annotated[
     bool, typer.Option("--replanning/--no-replanning", help="Replan while walking; off: follow the first plan.")
 ]
@@ -150,7 +154,7 @@ def run(
     plots: track.PlotsOption = None,
     save: track.SaveOption = None,
     json: track.JsonOption = False,
-    quiet: track.QuietOption = False,
+    quiet: QuietOption = False,
 ) -> int:
     """Simulate a robot that is planned for while it walks.
 
@@ -209,6 +213,8 @@ def _run(
         plan = first_plan(scene, robot, online)
     finally:
         progress.end()
+    if robot is not None and names_plan(scene) and not (telling.quiet or telling.json):
+        _warn_of_another(plan, robot)
     with watching(telling.live, plan, None) as watch, _steering(telling, plan, progress) as (steer, simulated):
         beside = Beside(simulated, watch, steer)
         result, interrupted = as_far_as_it_came(lambda: run_any(plan, robot, values, beside, true_scene))
@@ -221,6 +227,17 @@ def _run(
     if written and not telling.json:
         print(printable(f"Saved {', '.join(written)}"))
     return CODE if interrupted else 0 if result.followed else 1
+
+
+def _warn_of_another(plan: Plan, robot: str) -> None:
+    """Warn where the robot that is named cannot follow the plan, which may be that of another one."""
+    from mcplan.cli.terminal import printable
+    from mcplan.tracking.feasibility import assess
+    from mcplan.tracking.runner import robot_for
+
+    found = assess(plan, robot_for(plan, robot))
+    if not found.ok():
+        print(printable(f"warning: {found.verdict}"), file=sys.stderr)
 
 
 @contextmanager
