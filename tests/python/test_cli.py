@@ -292,6 +292,10 @@ BAD_WORDS = [
     (("robots", "--posture", "knee=1"), "--posture: needs --from-urdf"),
     (("plan", "flat", "--scale", "0"), "--scale: must lie in [0.001, 1000], got 0.0"),
     (("plan", "flat", "--sole-inside", "3"), "--sole-inside: must be at most 2, got 3"),
+    (
+        ("plan", "gap", "--min-flight", "0.2", "--no-flight"),
+        "--min-flight: must not be given with --no-flight, which plans none, got 0.2",
+    ),
     (("robots", "--from-urdf", "talos", "--end", "foot=nowhere"), "--end foot: must name a link of the URDF"),
     (
         ("robots", "--from-urdf", "talos", "--posture", "leg_left_4_jiont=1"),

@@ -125,10 +125,13 @@ def plan(
     from mcplan.cli.interrupts import CODE
     from mcplan.cli.outputs import Outputs, require_outputs
     from mcplan.cli.terminal import printable
+    from mcplan.errors import InvalidInput
     from mcplan.files.outputs import ARCHIVE, require_target
 
     require_target("--motion", motion, ARCHIVE)
     require_outputs("plan", output, html, plots)
+    if no_flight and min_flight is not None:
+        raise InvalidInput("--min-flight", "must not be given with --no-flight, which plans none", f"{min_flight:g}")
     given: dict[str, Any] = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads}
     given |= {"seed": seed, "model": model, "polish": polish}
     given |= {"sole_inside": sole_inside, "flight_duration_min_s": min_flight}
