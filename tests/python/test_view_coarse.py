@@ -55,7 +55,7 @@ def talos_plan():
 
 
 def orange(path) -> int:
-    """Pixels of the colour of TALOS's fingers, which nothing else in a picture of it has."""
+    """Pixels of the colour of TALOS's finger tips, which nothing else in a picture of it has."""
     pixels = (255.0 * pytest.importorskip("matplotlib.image").imread(path)[..., :3]).astype(int)
     red, green, blue = pixels[..., 0], pixels[..., 1], pixels[..., 2]
     return int(((red > 240) & (abs(green - 150) < 25) & (abs(blue - 50) < 35)).sum())
@@ -65,7 +65,7 @@ def test_a_robot_with_a_urdf_is_drawn_with_its_meshes(talos_plan, tmp_path):
     pixels = {
         meshes: orange(picture(talos_plan, path=tmp_path / "p.png", poses=2, meshes=meshes)) for meshes in (True, False)
     }
-    assert pixels[True] > 300 and pixels[False] == 0
+    assert pixels[True] > 100 and pixels[False] == 0
 
 
 @pytest.mark.parametrize("ending", ["svg", pytest.param("pdf", marks=pytest.mark.slow)])

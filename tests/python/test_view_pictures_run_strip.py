@@ -126,6 +126,18 @@ def test_every_frame_of_a_strip_holds_all_of_the_robot_large_and_at_one_scale(si
     assert max(share) > 0.75
 
 
+@pytest.mark.parametrize(("size", "rows"), [((0.7, 0.3, 0.4), 2), ((0.3, 0.3, 1.7), 1)])
+def test_frames_that_are_wider_than_tall_stand_four_in_a_row(recording, size, rows, tmp_path):
+    """Eight of them in a row were as small as stamps."""
+    scene = scene_with(Part("trunk", box(size), "#d00000", np.array([np.eye(4)] * 8)))
+    path = save_run_strip(recording, tmp_path / "strip.png", width=480, lay_out=lambda run, rate_hz: scene)
+    with Image.open(path) as image:
+        pixels = np.asarray(image.convert("RGB"), int)
+    red = ((pixels[:, :, 0] - pixels[:, :, 1]) > 60).any(axis=1)
+    assert np.count_nonzero(np.diff(red.astype(int)) == 1) == rows
+    assert image.width == 480 and image.height > 120
+
+
 @pytest.mark.parametrize(
     ("frames", "name", "message"),
     [

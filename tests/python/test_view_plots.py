@@ -1,5 +1,6 @@
 """Plots and pictures: written, not blank, true to the plan."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,6 +9,8 @@ import pytest
 import mcplan as mp
 import plans_by_hand as by_hand
 import wrenches
+from mcplan.kinematics.rotations import pose
+from mcplan.kinematics.samples import sample
 from mcplan.view import (
     picture,
     plot_com,
@@ -22,6 +25,13 @@ from mcplan.view import (
     plot_turning,
     save_plots,
 )
+from mcplan.view.colours import GRASP, SURFACES, end_effector_colours, surface_colours
+from mcplan.view.extent import extent_of
+from mcplan.view.figure import Part
+from mcplan.view.pictures.picture import paint
+from mcplan.view.robot_stick import stick_robot
+from mcplan.view.scene_drawing import for_hands, surface_drawings
+from mcplan.view.shapes import box
 from stepping import LEFT, RIGHT, stepping_plan
 
 pytest.importorskip("matplotlib")
@@ -92,6 +102,37 @@ def test_picture_shows_feet_and_com_in_their_colours(plan, tmp_path):
     image = pixels(picture(plan, path=tmp_path / "picture.png"))
     for colour in ((213, 94, 0), (0, 114, 178), (122, 31, 92)):
         assert (np.abs(image - colour).max(axis=2) < 25).sum() > 500, colour
+
+
+def test_a_robot_that_reaches_above_its_usual_height_is_seen_whole(plan, tmp_path):
+    """Heads of TALOS that leaned ahead were cut off."""
+    samples = sample(plan, plan.scene, plan.robot, 10.0)
+    figure = stick_robot(samples, plan.robot, end_effector_colours(plan.robot))
+    poses = pose(np.eye(3), samples.com_W + [0.0, 0.0, 1.2])
+    mast = Part("mast", box((0.1, 0.1, 0.4)), "#c00000", poses)
+    path = paint(plan.scene, plan.robot, samples, replace(figure, parts=[*figure.parts, mast]), tmp_path / "mast.png")
+    assert (pixels(path)[0] > 250).all()
+
+
+def test_surfaces_of_a_gait_have_colours_of_their_own():
+    """Every ninth surface of a scene had the colour of the first, though the plan stepped on two of them alone."""
+    surfaces = [by_hand.rectangle(f"s_{i}", (i, i + 0.9), (0.0, 1.0), 0.0) for i in range(30)]
+    surfaces[4].grasp = True
+    scene = SimpleNamespace(surfaces=surfaces)
+    two = surface_colours(scene, [9, 0, 4])
+    assert two[0] != two[9] and two[4] == GRASP and [two[0], two[9]] == list(SURFACES[:2])
+    assert len(set(surface_colours(scene)[:28])) == 28
+
+
+def test_legends_name_surfaces_for_hands_in_the_colours_in_which_they_are_drawn():
+    for name, text in (("gap_with_wall", "walls for hands"), ("gap_with_rail", "for hands")):
+        scene = mp.load_scene(name)
+        drawn = {
+            drawing.name: drawing.colour for drawing in surface_drawings(scene, extent_of(scene, None, None, 1.0, 1.0))
+        }
+        ((names, colour, said),) = for_hands(scene)
+        assert said == text and {drawn[own] for own in names} == {colour}
+    assert for_hands(mp.load_scene("flat")) == []
 
 
 def test_com_curve_is_the_plans(plan):

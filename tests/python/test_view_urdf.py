@@ -12,7 +12,9 @@ from mcplan.errors import SimplerDrawing
 from mcplan.kinematics.samples import sample
 from mcplan.kinematics.urdf_model import load_model
 from mcplan.view import show
-from mcplan.view.robot_urdf import CannotFollow, mesh_figure, own_vertices, urdf_robot
+from mcplan.view.colours import end_effector_colours, mix
+from mcplan.view.figure_choice import figure_of
+from mcplan.view.robot_urdf import TINT, CannotFollow, mesh_figure, own_vertices, urdf_robot
 
 pytest.importorskip("pinocchio")
 pytest.importorskip("example_robot_data")
@@ -42,6 +44,20 @@ def test_a_plan_out_of_reach_falls_back_to_the_stick_robot(talos):
     with pytest.warns(SimplerDrawing, match="stick robot instead"):
         page = show(plan)
     assert b"robot/left_foot_upper" in gzip.decompress(page.payload)
+
+
+def test_links_at_the_ends_have_the_colours_of_their_end_effectors_as_in_motions(talos):
+    plan = by_hand.walk(by_hand.flat(), talos)
+    samples, tints = sample(plan, plan.scene, talos, 2.0), end_effector_colours(talos)
+    usual, tinted = (
+        {part.name: part.colour for part in figure.parts}
+        for figure in (urdf_robot(samples, talos), figure_of(samples, talos, tints))
+    )
+    other = {name for name in usual if usual[name] != tinted[name]}
+    assert {name.partition("/")[0] for name in other} >= {"leg_left_6_joint", "leg_right_6_joint"}
+    right = next(end for end, e in enumerate(talos.end_effectors) if e.name == "right_foot")
+    name = next(name for name in other if name.startswith("leg_right_6_joint"))
+    assert tinted[name] == mix(usual[name], tints[right], TINT)
 
 
 def test_parts_of_a_mesh_are_drawn_between_their_own_vertices():

@@ -6,6 +6,7 @@ End-effectors on the left are cool, those on the right warm; the first of a side
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -54,9 +55,25 @@ def end_effector_colours(robot: Robot) -> list[str]:
     return colours
 
 
-def surface_colours(scene: Scene) -> list[str]:
-    """One colour per surface of the scene for plots, "#rrggbb"; grasps keep their accent."""
-    return [GRASP if s.grasp else SURFACES[i % len(SURFACES)] for i, s in enumerate(scene.surfaces)]
+def surface_colours(scene: Scene, used: Collection[int] | None = None) -> list[str]:
+    """One colour per surface of the scene for plots, "#rrggbb"; grasps keep their accent.
+
+    Args:
+        scene: Its surfaces.
+        used: Indices of those that a plot shows, which have different colours as far as there are any; None: all.
+    """
+    colours = [GRASP if surface.grasp else GROUND for surface in scene.surfaces]
+    shown = range(len(colours)) if used is None else sorted(used)
+    for number, i in enumerate(i for i in shown if not scene.surfaces[i].grasp):
+        colours[i] = surface_colour(number)
+    return colours
+
+
+def surface_colour(number: int) -> str:
+    """The colour of one of many surfaces in a plot, "#rrggbb": the palette, then darker, then lighter, then over again."""
+    again, place = divmod(number, len(SURFACES))
+    colour = SURFACES[place]
+    return (colour, mix(colour, "#000000", 0.45), mix(colour, "#ffffff", 0.55))[again % 3]
 
 
 def rgb(colour: str) -> tuple[float, float, float]:

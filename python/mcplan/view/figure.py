@@ -28,3 +28,8 @@ class Figure:
     parts: list[Part]
     #: Points that limbs pass through, per end-effector: root, middle joint, end; each (n, 3) [m].
     joints_W: list[tuple[NDArray[np.float64], ...]] = field(default_factory=list)
+
+    def points_W(self, n: int) -> NDArray[np.float64]:
+        """Vertices (m, 3) of all parts at a sample [m]."""
+        moved = [part.mesh.vertices @ part.poses[n, :3, :3].T + part.poses[n, :3, 3] for part in self.parts]
+        return np.vstack(moved) if moved else np.zeros((0, 3))

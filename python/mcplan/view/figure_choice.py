@@ -22,7 +22,7 @@ def figure_of(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
     from .robot_urdf import CannotFollow, urdf_robot
 
     try:
-        return urdf_robot(samples, robot)
+        return urdf_robot(samples, robot, colours)
     except CannotFollow as error:
         warnings.warn(f"{error}; drawing a stick robot instead", SimplerDrawing, stacklevel=3)
         return stick_robot(samples, robot, colours)

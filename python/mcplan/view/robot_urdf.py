@@ -33,8 +33,8 @@ class CannotFollow(RuntimeError):
     """No posture of the URDF follows the plan; the message says by how much it misses, where and when."""
 
 
-def urdf_robot(samples: Samples, robot: Robot) -> Figure:
-    """Pose a URDF's visual meshes along a plan.
+def urdf_robot(samples: Samples, robot: Robot, tints: list[str] | None = None) -> Figure:
+    """Pose a URDF's visual meshes along a plan; `tints` as for ``mesh_figure``.
 
     Raises:
         MissingExtra: Pinocchio (or example-robot-data) is not installed.
@@ -48,7 +48,7 @@ def urdf_robot(samples: Samples, robot: Robot) -> Figure:
         raise CannotFollow(
             f"inverse kinematics of {robot.name} misses {postures.where} by {100.0 * postures.residual:.1f} cm"
         )
-    return mesh_figure(urdf_model, postures.configurations)
+    return mesh_figure(urdf_model, postures.configurations, tints)
 
 
 def mesh_figure(urdf_model: UrdfModel, configurations: Array, tints: list[str] | None = None) -> Figure:

@@ -46,6 +46,21 @@ def is_pad(surface: Surface) -> bool:
     return bool(own) and not surface.grasp and not any("foot" in name or "leg" in name for name in own)
 
 
+def for_hands(scene: Scene) -> list[tuple[list[str], str, str]]:
+    """Surfaces for hands alone for a legend, those of each colour: their names, the colour and what to say of them."""
+    pads = [
+        (surface.name, _is_wall(polygon_normal(surface.vertices_W))) for surface in scene.surfaces if is_pad(surface)
+    ]
+    kinds = ((False, PAD, "for hands"), (True, WALL, "walls for hands"))
+    found = [([name for name, wall in pads if wall == kind], colour, text) for kind, colour, text in kinds]
+    return [each for each in found if each[0]]
+
+
+def _is_wall(normal: Array) -> bool:
+    """Whether a surface with this normal (3,) is drawn as a wall, through which what is behind can be seen."""
+    return bool(abs(normal[2]) < 0.3)
+
+
 def grid_spacing(extent: Extent) -> float:
     """[m] between grid lines: half a metre, or for drawings that are far smaller or larger as round a number."""
     size = 2.0 * max(extent.half_length, extent.half_width)
@@ -64,7 +79,7 @@ def surface_drawings(scene: Scene, extent: Extent) -> list[SurfaceDrawing]:
         if len(outline) < 3 or not _has_area(outline, surface.vertices_W):
             continue
         normal = polygon_normal(outline)
-        wall = abs(normal[2]) < 0.3
+        wall = _is_wall(normal)
         colour = GRASP if surface.grasp else WALL if wall else PAD if is_pad(surface) else GROUND
         grid = grid_lines(outline, spacing) if normal[2] > 0.3 and not surface.grasp else np.zeros((0, 2, 3))
         # No deeper than the scene is long: files of millimetres may leave the thickness at its default of centimetres.

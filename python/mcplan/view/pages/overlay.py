@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from mcplan.errors import printable
 from mcplan.kinematics.samples import Interval
-from mcplan.view.colours import COM, GRASP, PAD
-from mcplan.view.scene_drawing import is_pad
+from mcplan.view.colours import COM, GRASP
+from mcplan.view.scene_drawing import for_hands
 from mcplan.view.stage import node
 
 from .annotations import length_text
@@ -65,10 +65,7 @@ def plan_legend(scene: Scene, robot: Robot, colours: list[str], newton_per_metre
 
 def scene_legend(scene: Scene) -> list[str]:
     """Legend entries for surfaces that are special."""
-    special = (
-        ([s.name for s in scene.surfaces if s.grasp], GRASP, "may be held"),
-        ([s.name for s in scene.surfaces if is_pad(s)], PAD, "for hands"),
-    )
+    special = [([s.name for s in scene.surfaces if s.grasp], GRASP, "may be held"), *for_hands(scene)]
     return [
         entry(" ".join(f"scene/{node(name)}" for name in names), "", colour, text)
         for names, colour, text in special

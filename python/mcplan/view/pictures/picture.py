@@ -21,7 +21,7 @@ from mcplan.view.figure import Figure
 from mcplan.view.figure_choice import figure_of
 from mcplan.view.plan_drawing import WEIGHT_ARROW, contact_plate
 from mcplan.view.robot_stick import stick_robot
-from mcplan.view.scene_drawing import SurfaceDrawing, edges, is_pad, surface_drawings
+from mcplan.view.scene_drawing import SurfaceDrawing, edges, for_hands, surface_drawings
 from mcplan.view.shapes import cone, ellipsoid
 from mcplan.view.sheets import save_figure
 from mcplan.view.viewpoint import camera_direction, sun_direction, view_points
@@ -100,11 +100,11 @@ def paint(
     colours = end_effector_colours(robot)
     extent = extent_of(scene, robot, samples, length=0.45, width=0.45)
     drawings = surface_drawings(scene, extent)
-    points = view_points(drawings, samples, robot)
+    chosen = pose_indices(samples, robot, poses)
+    points = np.vstack([view_points(drawings, samples, robot), *(figure.points_W(n) for n in chosen)])
     canvas = Canvas(points, camera_direction(extent), sun_direction(extent))
     _paint_surfaces(canvas, drawings)
     _paint_plan(canvas, samples, robot, colours)
-    chosen = pose_indices(samples, robot, poses)
     shown = _Shown(canvas, figure, samples, robot, float(robot.mass) * float(scene.gravity))
     for rank, n in enumerate(chosen):
         # The past is pale; the last posture has full colour.
@@ -265,8 +265,7 @@ def _legend(sheet, scene: Scene, robot: Robot, colours: list[str]) -> None:  # t
     entries.append(Line2D([], [], color=FORCE, linewidth=1.6, marker=">", markevery=[1], label="contact force"))
     if any(s.grasp for s in scene.surfaces):
         entries.append(Patch(color=GRASP, label="may be held"))
-    if any(is_pad(s) for s in scene.surfaces):
-        entries.append(Patch(color=PAD, label="for hands"))
+    entries += [Patch(color=colour, label=text) for _, colour, text in for_hands(scene)]
     sheet.legend(
         handles=entries,
         loc="lower center",

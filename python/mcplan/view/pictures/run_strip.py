@@ -29,6 +29,8 @@ RATE = 100.0
 #: Ratios of height to width that a frame may have, and of the margin around the robot to its size.
 ASPECTS = (0.7, 1.9)
 ROOM = 0.06
+#: Frames in a row at most, and those that are wider than tall, as of robots on four feet.
+IN_A_ROW, WIDE_IN_A_ROW = 8, 4
 INK = (34, 38, 43)
 
 
@@ -48,7 +50,7 @@ def save_run_strip(
         run: A recording, or the result of tracking.
         path: File to write.
         frames: Number of instants, equally spaced from start to end, or the instants [s].
-        columns: Frames in a row; None: up to eight.
+        columns: Frames in a row; None: up to eight, of a robot that is wider than tall up to four.
         width: Width of the picture in pixels.
         lay_out: What lays the run out for rendering, at a rate [1/s]; of a planar robot: planar_scene_of.
 
@@ -63,7 +65,8 @@ def save_run_strip(
     from PIL import Image, ImageDraw, ImageFont
 
     if columns is None:
-        rows = -(-len(chosen) // 8)
+        most = IN_A_ROW if framed(scene, chosen, width)[1] > width else WIDE_IN_A_ROW
+        rows = -(-len(chosen) // most)
         columns = -(-len(chosen) // rows)
     columns = max(1, min(columns, len(chosen)))
     gap = max(2, width // 240)
@@ -134,7 +137,7 @@ def framed(scene: RunScene, chosen: Sequence[int], width: int) -> tuple[list[Eye
         width: Width of a picture in pixels; its height suits the robot, within bounds.
     """
     plain = scene.eye(np.zeros(3), 1.0)
-    points = [_corners(scene, n) for n in chosen]
+    points = [scene.figure.points_W(n) for n in chosen]
     spreads = [np.array([np.ptp(p @ axis) for axis in _axes(plain)[:2]]) for p in points]
     wide, tall = np.max(spreads, axis=0)
     height = round(width * float(np.clip(tall / max(wide, 1e-9), *ASPECTS)))
@@ -142,16 +145,6 @@ def framed(scene: RunScene, chosen: Sequence[int], width: int) -> tuple[list[Eye
     eyes = [fitted(p, plain, (width, height), margin=ROOM * float(max(wide, tall))) for p in points]
     distance = max(eye.distance_m for eye in eyes)
     return [replace(eye, distance_m=distance) for eye in eyes], height
-
-
-def _corners(scene: RunScene, n: int) -> Array:
-    """Corners (m, 3) [m] of boxes around the robot's parts at an instant."""
-    corners = []
-    for part in scene.figure.parts:
-        low, high = part.mesh.vertices.min(axis=0), part.mesh.vertices.max(axis=0)
-        box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-        corners.append(box @ part.poses[n, :3, :3].T + part.poses[n, :3, 3])
-    return np.vstack(corners)
 
 
 def _axes(eye: Eye) -> tuple[Array, Array, Array]:

@@ -104,8 +104,9 @@ def plot_gait(plan: Plan) -> Figure:
     from matplotlib.patches import Patch
 
     names = [plain(end.name) for end in plan.robot.end_effectors]
-    colours = surface_colours(plan.scene)
     intervals = contact_intervals(plan, plan.scene, plan.robot)
+    used = sorted({interval.surface for interval in intervals})
+    colours = surface_colours(plan.scene, used)
     figure, axes = sheet(1, 1, size=(10.0, 0.9 + 0.42 * len(names)))
     chart = axes[0, 0]
     for interval in intervals:
@@ -125,7 +126,6 @@ def plot_gait(plan: Plan) -> Figure:
     chart.set_ylim(len(names) - 0.45, -0.55)
     chart.set_xlim(0.0, plan.duration())
     label(chart, x="time [s]")
-    used = sorted({interval.surface for interval in intervals})
     if len(used) > 1:
         patches = [Patch(color=colours[s], label=plan.scene.surfaces[s].name.replace("$", r"\$")) for s in used]
         figure.legend(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.view.colours import COM, SURFACES, TEXT, WARM, plain, surface_colours
+from mcplan.view.colours import COM, TEXT, WARM, plain, surface_colour, surface_colours
 from mcplan.view.sheets import label, sheet
 
 if TYPE_CHECKING:
@@ -67,9 +67,8 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
 
     edges, grid = sequences_by_switches(report, len(plan.phases) if plan is not None else 0)
     surfaces = int(max(grid.max() + 1, len(plan.scene.surfaces) if plan is not None else 1))
-    palette = (
-        surface_colours(plan.scene) if plan is not None else [SURFACES[i % len(SURFACES)] for i in range(surfaces)]
-    )
+    used = sorted({int(s) for s in np.unique(grid) if s >= 0})
+    palette = surface_colours(plan.scene, used) if plan is not None else [surface_colour(i) for i in range(surfaces)]
     colours = ListedColormap(["#F3F5F7", *palette])
     norm = BoundaryNorm(np.arange(-1.5, surfaces + 0.5), colours.N)
     end_effectors = grid.shape[2]
@@ -82,7 +81,6 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
         name = plain(plan.robot.end_effectors[end].name) if plan is not None else f"end-effector {end}"
         label(chart, y="step k", title=name.replace("_", " "))
     label(axes[-1, 0], x="contact switches")
-    used = sorted({int(s) for s in np.unique(grid) if s >= 0})
     names = [plan.scene.surfaces[s].name.replace("$", r"\$") if plan is not None else f"surface {s}" for s in used]
     patches = [Patch(color="#F3F5F7", label="free")]
     patches += [Patch(color=palette[s], label=name) for s, name in zip(used, names, strict=True)]
