@@ -462,13 +462,24 @@ def test_plans_of_contact_wrenches_are_summed_up_with_their_loads(capsys, monkey
     assert report["angular_momentum_max"] is None and report["force_max_weights"] is None
 
 
-@pytest.mark.parametrize("words", [("--output", "x.toml"), ("--srdf", "x.srdf"), ("--end", "foot=sole")])
+@pytest.mark.parametrize("words", [("--reach-polytopes",), ("--srdf", "x.srdf"), ("--end", "foot=sole")])
 @pytest.mark.parametrize("name", ["talos", "walker9"])
 def test_robots_ignore_no_option(capsys, tmp_path, monkeypatch, name, words):
     monkeypatch.chdir(tmp_path)
     code, out, err = run(capsys, "robots", name, *words)
     assert (code, out, err) == (2, "", f"error: {words[0]}: needs --from-urdf\n")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", ["talos", "humanoid44", "walker9"])
+def test_robots_are_copied(capsys, tmp_path, name):
+    file = tmp_path / "my.toml"
+    assert run(capsys, "robots", name, "-o", file)[:2] == (0, f"Wrote {file}\n")
+    load = mp.load_planar_robot if name == "walker9" else mp.load_robot
+    assert load(file) == load(name)
+    assert file.read_text().startswith(f"# Made by: mcplan robots {name} -o ")
+    assert run(capsys, "robots", "-o", file)[2] == "error: --output: needs the NAME of a robot, or --from-urdf\n"
+    one_line_error(run(capsys, "robots", name, "-o", tmp_path / "my.txt"))
 
 
 def test_robots_takes_a_name_or_a_urdf(capsys):

@@ -85,14 +85,14 @@ def robots(
     seed: SeedOption = None,
     output: OutputOption = None,
 ) -> None:
-    """List or print robots, or make one from a URDF.
+    """List, print or copy robots, or make one from a URDF.
+
+    Example: mcplan robots talos -o my.toml
 
     Example: mcplan robots --from-urdf my.urdf --end left_foot=l_sole:foot:0.10x0.05 --end right_foot=r_sole -o my.toml
     """
-    from mcplan.cli import planar_robots, robots_strength
+    from mcplan.cli import planar_robots
     from mcplan.errors import InvalidInput, shown
-    from mcplan.files.planar_robots import load_planar_robot
-    from mcplan.files.robots import load_robot
 
     for option, given in (
         ("--reach-polytopes", reach_polytopes),
@@ -100,10 +100,11 @@ def robots(
         ("--posture", bool(posture)),
         ("--end", bool(end)),
         ("--srdf", srdf is not None),
-        ("--output", output is not None),
     ):
         if given and from_urdf is None:
             raise InvalidInput(option, "needs --from-urdf")
+    if output is not None and name is None and from_urdf is None:
+        raise InvalidInput("--output", "needs the NAME of a robot, or --from-urdf")
     if seed is not None and not strength and (from_urdf is None or planar):
         raise InvalidInput("--seed", "needs --strength, or --from-urdf without --planar")
     count, seed = _faces(reach_polytopes, faces), seed or 0
@@ -118,20 +119,18 @@ def robots(
             raise InvalidInput(option, "may not stand beside --planar")
     if strength and (name is None or from_urdf is not None or planar_robots.is_planar(name)):
         raise InvalidInput("--strength", "needs the NAME of a robot with a URDF")
+    if strength and output is not None:
+        raise InvalidInput("--strength", "may not stand beside --output")
     if from_urdf is not None and planar:
         planar_robots.planar_robot_from_urdf(from_urdf, end or [], output)
     elif from_urdf is not None:
         _from_urdf(_Given(from_urdf, end or [], srdf, posture or []), output, count, seed)
     elif name is None:
         _print_list()
-    elif planar_robots.is_planar(name):
-        planar_robots.print_planar_robot(load_planar_robot(name))
+    elif output is not None:
+        _copy(name, output)
     else:
-        robot = load_robot(name)
-        strengths = robots_strength.strengths(robot, seed) if strength else []
-        _print_robot(robot)
-        if strength:
-            robots_strength.print_strengths(strengths)
+        _print(name, seed if strength else None)
 
 
 def _faces(reach_polytopes: bool, faces: int | None) -> int | None:
@@ -154,6 +153,51 @@ def _print_list() -> None:
     print_table(rows)
 
 
+def _print(name: str, strength_seed: int | None) -> None:
+    """Print a robot; `strength_seed`: of the postures over which its arms' strength is printed, None: is not."""
+    from mcplan.cli import planar_robots, robots_strength
+    from mcplan.files.planar_robots import load_planar_robot
+    from mcplan.files.robots import load_robot
+
+    if planar_robots.is_planar(name):
+        planar_robots.print_planar_robot(load_planar_robot(name))
+        return
+    robot = load_robot(name)
+    strengths = [] if strength_seed is None else robots_strength.strengths(robot, strength_seed)
+    _print_robot(robot)
+    if strength_seed is not None:
+        robots_strength.print_strengths(strengths)
+
+
+def _copy(name: str, output: Path) -> None:
+    """Write a robot's file."""
+    from mcplan.cli.planar_robots import is_planar
+    from mcplan.files.outputs import TOML, require_target
+    from mcplan.files.planar_robots import load_planar_robot, save_planar_robot
+    from mcplan.files.robots import load_robot
+
+    require_target("--output", output, TOML)
+    comment = f"Made by: mcplan robots {name} -o {output}"
+    if is_planar(name):
+        save_planar_robot(load_planar_robot(name), output, comment)
+        say(f"Wrote {output}")
+    else:
+        _write(load_robot(name), output, comment)
+
+
+def _write(robot: Robot, output: Path, comment: str) -> None:
+    """Write a robot, with the path of its URDF as its file needs it, if it can have that."""
+    from mcplan.files.robots import save_robot, urdf_beside
+
+    beside = urdf_beside(robot.urdf, output)
+    if beside is None:
+        note = f"lies neither in the folder of {output} nor below: left out. Copy it there, and add its path as urdf"
+        print(f"note: {robot.urdf} {note}", file=sys.stderr)
+    robot.urdf = beside or ""
+    save_robot(robot, output, comment)
+    say(f"Wrote {output}")
+
+
 @dataclass(frozen=True)
 class _Given:
     """What a robot is worked out from, as it was typed."""
@@ -168,7 +212,7 @@ def _from_urdf(given: _Given, output: Path | None, faces: int | None, seed: int)
     """faces: of the reach polytopes; None: without them."""
     from mcplan.files import reach_polytopes
     from mcplan.files.outputs import TOML, require_target
-    from mcplan.files.robots import robot_to_dict, save_robot, urdf_beside
+    from mcplan.files.robots import robot_to_dict
     from mcplan.files.toml import toml_text
     from mcplan.files.urdf import header, robot_from_urdf
     from mcplan.files.urdf_setups import SETUPS
@@ -198,15 +242,7 @@ def _from_urdf(given: _Given, output: Path | None, faces: int | None, seed: int)
         robot.validate()
         print(toml_text(robot_to_dict(robot), comment), end="")
     else:
-        beside = urdf_beside(robot.urdf, output)
-        if beside is None:
-            note = (
-                f"lies neither in the folder of {output} nor below: left out. Copy it there, and add its path as urdf"
-            )
-            print(f"note: {robot.urdf} {note}", file=sys.stderr)
-        robot.urdf = beside or ""
-        save_robot(robot, output, comment)
-        say(f"Wrote {output}")
+        _write(robot, output, comment)
 
 
 def _parse_end(text: str) -> End:
