@@ -191,6 +191,9 @@ def _rows(name: str, value: Any) -> list[tuple[float, ...]]:
         rows = [value] if is_row(value) else list(value)
         if any(isinstance(part, str | bytes) for row in rows for part in (row, *row)):
             raise TypeError
-        return [tuple(float(number) for number in row) for row in rows]
+        numbers = [tuple(float(number) for number in row) for row in rows]
     except (TypeError, ValueError, OverflowError):
         raise InvalidOptions(name, "must be numbers", shown(value)) from None
+    if not np.isfinite([number for row in numbers for number in row]).all():
+        raise InvalidOptions(name, "must be finite numbers", shown(value))
+    return numbers

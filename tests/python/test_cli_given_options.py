@@ -155,6 +155,32 @@ def test_what_typer_refuses_is_in_our_words(capsys):
         assert one_line_error(run(capsys, *words)) == message
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--command", "nan,0,0"), '--command: must be [at,]ahead,left,turn, such as 0.15,0,0.1, got "nan,0,0"'),
+        (("--goal", "inf,0"), '--goal: must be x,y[,yaw[,at]], such as 1.5,0.3, got "inf,0"'),
+        (("--keep", "0"), "--keep: must lie in 0.1 to 3600 s, or be left out (nan): all of the run, got 0"),
+        (("--told-at", "-1"), "--told-at: must lie in 0 to 3600 s, or be left out (nan): never, got -1"),
+    ],
+)
+def test_options_of_a_run_say_what_was_typed_and_what_their_default_does(words, told, capsys):
+    for name in ("mujoco", "pinocchio", "proxsuite"):
+        pytest.importorskip(name)
+    assert one_line_error(run(capsys, "run", "flat", "--robot", "talos", *words)) == told
+
+
+def test_a_part_of_an_option_may_have_a_name_of_its_own():
+    found = InvalidOptions("pushes[1].at_s", "must lie in the run", "9")
+    with (
+        pytest.raises(InvalidOptions, match="^--push: at: must"),
+        named_as_typed(**{"pushes": "--push", "pushes.at_s": "--push: at"}),
+    ):
+        raise found
+    with pytest.raises(InvalidOptions, match="^--push at_s: must"), named_as_typed(pushes="--push"):
+        raise found
+
+
 def test_no_help_shows_ranges_of_typer():
     for words, command in commands():
         text = command.get_help(command.make_context("mcplan", [], resilient_parsing=True))

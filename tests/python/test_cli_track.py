@@ -247,7 +247,10 @@ def test_files_that_are_no_plans_are_one_line(capsys, file, tmp_path):
     saved = tmp_path / "run.npz"
     tracked_cartwheel.tracked().save(saved)
     told = one_line_error(run(capsys, saved))
-    assert told == f"{saved}: must be a plan, got a run of one, which mcplan track or mcplan run saved"
+    rule = f"{saved}: must be a plan, got a run of one, which mcplan track or mcplan run saved"
+    assert told == rule
+    for words, lead in ((["motion"], ""), (["rhp", "flat", "--sequence"], "--sequence ")):
+        assert one_line_error((main([*words, str(saved)]), *capsys.readouterr())) == lead + rule
 
 
 def test_missing_packages_are_one_line(capsys, file, monkeypatch):

@@ -116,6 +116,8 @@ def test_another_robot_that_cannot_follow_the_plan_is_warned_of_as_track_does(pl
     file = tmp_path / "plan.npz"
     light.save(file)
     words = ["run", str(file), "--latency", str(LATENCY), "--duration", "0.1"]
+    assert main([*words, "--push", "10,0.1,9,0"]) == 2
+    assert capsys.readouterr().err.startswith("error: --push: at: must lie before the end of the run")
     assert main([*words, "--robot", "talos"]) == 0
     assert capsys.readouterr().err.startswith("warning: talos cannot follow the plan: mass at 0.00 s: 0.2, limit 0.1")
     assert main([*words, "--robot", "talos", "--quiet"]) == main(words) == 0
@@ -281,7 +283,17 @@ def test_a_velocity_is_walked_at(plan):
         ({"latencies": 1}, "latencies: no such option"),
         ({"assist": True}, "assist: no such option"),
         ({"latency": "soon"}, "latency_s: must be a number"),
-        ({"command": (1.0, 2.0)}, "command: must be three finite numbers, or four"),
+        ({"command": (1.0, 2.0)}, "command: must be three finite numbers, or four with a time before them, got 1, 2"),
+        ({"command": (float("nan"), 0.0, 0.0)}, r"command: must be finite numbers, got \(nan, 0.0, 0.0\)"),
+        ({"command": (50.0, 0.0, 0.0)}, "command: must have velocities of at most 10 .*, got 50, 0, 0"),
+        (
+            {"latency": 3.0},
+            r"latency_s: must lie in 0 to 1 s, or be left out \(nan\): as long as its computation takes, got 3",
+        ),
+        (
+            {"duration": -1.0},
+            r"duration_s: must lie in 0 to 3600 s, or be left out \(nan\): as long as the walk takes, got -1",
+        ),
         ({"push": (250.0, 0.2, 99.0, 0.0)}, r"pushes\[0\].at_s: must lie before the end"),
     ],
 )

@@ -58,7 +58,8 @@ def named_as_typed(*names: str, **options: str) -> Iterator[None]:
 
     Args:
         names: Of arguments whose options are called the same: ``"time_limit"`` is ``--time-limit``.
-        options: Option by the name of the argument, where they differ; ``ends="--end"`` makes "--end foot" of "ends.foot".
+        options: Option by the name of the argument, where they differ; ``ends="--end"`` makes "--end foot" of "ends.foot",
+            unless that has a name of its own.
     """
     typed = {name: f"--{name.replace('_', '-')}" for name in names} | options
     try:
@@ -77,4 +78,6 @@ def _named(found: InvalidInput, typed: dict[str, str]) -> InvalidInput:
     name = name.partition("[")[0]  # of several, one
     if found.source or name not in typed:
         return found
+    if f"{name}.{part}" in typed:
+        return type(found)(typed[f"{name}.{part}"], found.rule, found.value)
     return type(found)(f"{typed[name]} {part}".strip(), found.rule, found.value)

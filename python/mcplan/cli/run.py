@@ -124,6 +124,7 @@ ReplanningOption = Annotated[
     ground_shift_m="--ground-shift",
     torque_bandwidth_hz="--torque-bandwidth",
     torque_delay_s="--torque-delay",
+    **{"pushes.at_s": "--push: at"},
 )
 def run(
     scene: SceneArgument,
@@ -282,8 +283,10 @@ def _numbers(
     """Numbers of --command or --goal.
 
     Raises:
-        InvalidOptions: Not so many numbers.
+        InvalidOptions: Not so many numbers, or one that is not finite.
     """
+    import math
+
     from mcplan.errors import InvalidOptions, shown
 
     words = text.split(",")
@@ -291,6 +294,6 @@ def _numbers(
         numbers = tuple(float(word) for word in words)
     except ValueError:
         numbers = ()
-    if len(numbers) not in counts:
+    if len(numbers) not in counts or not all(map(math.isfinite, numbers)):
         raise InvalidOptions(option, f"must be {form}", shown(text))
     return numbers

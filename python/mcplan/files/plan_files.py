@@ -5,16 +5,25 @@ from __future__ import annotations
 import codecs
 import errno
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TypeVar
 
 from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.files.archives import kind_in
 from mcplan.files.builtin import exists
 from mcplan.files.outputs import ARCHIVE, JSON, require_named, require_suffix, write_whole
 from mcplan.files.reading import MAX_PLAN, read_file
 
 _Plan = TypeVar("_Plan")
+
+_RUN = "a run of one, which mcplan track or mcplan run saved"
+#: What files that are no plans are, by the kind that their headers say.
+_OTHERS: Mapping[str, str] = {
+    "run": _RUN,
+    "planar_run": _RUN,
+    "motion": "a motion along one, which mcplan motion or mcplan plan --motion saved",
+}
 
 
 def write_plan_file(
@@ -42,7 +51,12 @@ def load_plan_file(
     """
     try:
         data = read_plan_file(path)
-        return from_json(data) if is_json(data, path) else from_archive(data)
+        if is_json(data, path):
+            return from_json(data)
+        kind = kind_in(data)
+        if isinstance(kind, str) and kind in _OTHERS:
+            raise InvalidPlan("", "must be a plan", _OTHERS[kind])
+        return from_archive(data)
     except InvalidInput as found:
         raise found.moved(InvalidPlan, str(path)) from None
 

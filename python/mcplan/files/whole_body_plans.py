@@ -36,7 +36,6 @@ from mcplan.errors import InvalidInput, InvalidPlan, written
 from mcplan.files import plans
 from mcplan.files.archives import (
     archive_bytes,
-    kind_in,
     kind_text,
     read_arrays,
     read_header,
@@ -90,8 +89,6 @@ def load_any_plan(path: str | Path) -> Plan | PlanarPlan:
     """
 
     def from_archive(data: bytes) -> Plan | PlanarPlan:
-        if kind_in(data) in RUN_KINDS:
-            raise InvalidPlan("", "must be a plan", "a run of one, which mcplan track or mcplan run saved")
         kind = read_header(read_arrays(data)).get("kind")
         return plan_from_bytes(data) if kind == KIND else plans.plan_from_bytes(data)
 

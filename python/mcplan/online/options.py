@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -81,30 +82,34 @@ class OnlineOptions:
             _require(name, "must be above 0", value, bool(value > 0))
         rule = f"must be above 0 and at most {LONGEST_SLACK_S:g}"
         _require("start_slack_s", rule, self.start_slack_s, 0 < self.start_slack_s <= LONGEST_SLACK_S)
-        for name, low, high in (
-            ("latency_s", 0.0, 1.0),
-            ("time_limit_s", 1e-3, 10.0),
-            ("duration_s", 0.0, MAX_RUN_S),
-            ("told_at_s", 0.0, MAX_RUN_S),
-            ("keep_s", 0.1, MAX_RUN_S),
+        for name, low, high, otherwise in (
+            ("latency_s", 0.0, 1.0, "as long as its computation takes"),
+            ("time_limit_s", 1e-3, 10.0, "the period, or none with a fixed latency"),
+            ("duration_s", 0.0, MAX_RUN_S, "as long as the walk takes"),
+            ("told_at_s", 0.0, MAX_RUN_S, "never"),
+            ("keep_s", 0.1, MAX_RUN_S, "all of the run"),
         ):
             value = getattr(self, name)
             within = bool(np.isnan(value) or low <= value <= high)
-            _require(name, f"must lie in {low:g} to {high:g}, or be nan", value, within)
+            _require(
+                name, f"must lie in {low:g} to {high:g} s, or be left out (nan): {otherwise}", f"{value:g}", within
+            )
         for name, rule in (
             ("command", "must be three finite numbers, or four with a time before them"),
             ("goal", "must be two to four finite numbers: x, y, heading, and the time from which on it holds"),
         ):
             rows = getattr(self, name)
-            ok = all(len(row) == 4 and bool(np.isfinite(np.asarray(row, float)).all()) for row in rows)
-            _require(name, rule, rows, ok)
+            for row in rows:
+                ok = len(row) == 4 and bool(np.isfinite(np.asarray(row, float)).all())
+                _require(name, rule, _listed(row), ok)
             times = [row[0] for row in rows]
             ascending = times == sorted(times) and min(times, default=0.0) >= 0 and max(times, default=0.0) <= MAX_RUN_S
-            _require(name, f"must have ascending times of 0 to {MAX_RUN_S:g} s", rows, ascending)
-        slow = all(abs(part) <= FASTEST for row in self.command for part in row[1:])
-        _require("command", f"must have velocities of at most {FASTEST:g} m/s and rad/s", self.command, slow)
+            _require(name, f"must have ascending times of 0 to {MAX_RUN_S:g} s", _listed(times), ascending)
+        for row in self.command:
+            slow = all(abs(part) <= FASTEST for part in row[1:])
+            _require("command", f"must have velocities of at most {FASTEST:g} m/s and rad/s", _listed(row[1:]), slow)
         both = {row[0] for row in self.command} & {row[0] for row in self.goal}
-        _require("goal", "must not begin when a command does", self.goal, not both)
+        _require("goal", "must not begin when a command does", _listed(both), not both)
 
     def _require_for_rhp(self) -> None:
         """Raise InvalidOptions naming the first field that a given sequence of steps cannot follow."""
@@ -163,6 +168,10 @@ def _last(
 def option_names() -> list[str]:
     """Names of the fields."""
     return [item.name for item in fields(OnlineOptions)]
+
+
+def _listed(numbers: Iterable[float]) -> str:
+    return ", ".join(f"{float(number):g}" for number in numbers)
 
 
 def _require(field_name: str, rule: str, value: object, holds: bool) -> None:
