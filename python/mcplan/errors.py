@@ -1,6 +1,9 @@
 """Typed errors. Bad input names field, rule and value; the C++ library raises the same classes.
 
 Texts that are values stand in double quotes, as files write them; names that a sentence speaks of in single ones.
+
+A file of a plan, motion or run that is not there, and any that cannot be written, is no error of these: readers and writers
+raise Python's own ``OSError`` (``FileNotFoundError``), whose ``filename`` is the path as given.
 """
 
 from __future__ import annotations

@@ -14,16 +14,13 @@ sys.path.insert(0, str(ROOT / "scripts"))
 pytest.importorskip("mcplan.tracking.options")
 from pages.page import Page, all_pages  # noqa: E402
 
-#: What a page takes for granted: plans that its shell blocks made, and what the reader brings.
+#: What a page takes for granted: files that its shell made.
 STAIRS = 'mp.plan("stairs_broad", "talos", sole_inside=1.0).plan.save("stairs.npz")'
 BEFORE = {
     "README.md": STAIRS,
     "docs/feasibility.md": 'mp.plan("stairs", "talos", joint_limits=False).plan.save("s.npz")',
     "docs/motion.md": 'mp.plan("stairs_broad", "talos").plan.save("stairs.npz")',
     "docs/planar_tasks.md": 'mp.files.planar_tasks.save_planar_task(mp.load_planar_task("walking"), "my_task.toml")',
-    "docs/plans_and_checker.md": 'scene, robot = mp.load_scene("flat"), mp.load_robot("humanoid44")\n'
-    "scenes = [scene]\nfirst = mp.plan(scene, robot)\nplan, measured = first.plan, first.plan.knots[0]",
-    "docs/rhp.md": "follow, estimate = print, [0.1, 0.0, 0.0]",
     "docs/theory/sip_certificate.md": 'plan = mp.whole_body("cartwheel", minimise="none").plan',
     "docs/tracking.md": STAIRS,
 }
