@@ -22,6 +22,8 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
 import mcplan as mp
 from mcplan.files.scenes import save_scene
 from mcplan_bench.processes import each
@@ -165,6 +167,31 @@ def bar(width: float, height: float) -> mp.Scene:
     return past(solid("bar", (1.0 - width / 2, 1.0 + width / 2), (-4.0, 4.0), height))
 
 
+def patches(seed: int) -> mp.Scene:
+    """Two columns of patches, each tilted forwards, backwards or to a side by 5 to 14 degrees and shifted up or down."""
+    random = np.random.default_rng(seed)
+    length, slope, rows = (
+        random.uniform(0.4, 0.7),
+        math.tan(math.radians(random.uniform(5.0, 14.0))),
+        random.integers(3, 6),
+    )
+    ground = [slab("start", (-1.0, 1.0), (-0.5, 0.5))]
+    for row in range(rows):
+        x = 1.0 + row * length
+        for name, y in (("right", -0.5), ("left", 0.0)):
+            aside, up = random.integers(2), slope * random.choice([-1.0, 1.0])
+            patch = slab(f"{name}_{row + 1}", (x, x + length), (y, y + 0.5), random.uniform(-0.02, 0.02))
+            middle = np.mean(patch.vertices_W, axis=0)
+            patch.vertices_W = [corner + [0.0, 0.0, up * (corner - middle)[aside]] for corner in patch.vertices_W]
+            patch.friction = 0.5
+            ground.append(patch)
+    end = 1.0 + rows * length
+    ground.append(slab("end", (end, end + 2.0), (-0.5, 0.5)))
+    walk = scene(ground, (end + 0.8, 0.0, 0.0), on="end")
+    walk.start = mp.model.Stance(position_W=[0.6, 0.0, 0.0], contacts={"foot": "start"})
+    return walk
+
+
 def post(x: float, y: float) -> mp.model.Surface:
     return solid(f"post_{x:g}_{y:g}", (x - 0.04, x + 0.04), (y - 0.04, y + 0.04), 1.5)
 
@@ -196,6 +223,7 @@ SCENES: dict[str, Callable[[], mp.Scene]] = {
     "step_up_0.3_table": partial(step_up, 0.3, table=True),
     **{f"step_down_{height:g}": partial(step_down, height) for height in (0.1, 0.2, 0.3)},
     **{f"stairs_{rise:g}_{tread:g}": partial(stairs, rise, tread) for rise, tread in ((0.1, 0.35), (0.17, 0.29))},
+    **{f"patches_{seed}": partial(patches, seed) for seed in range(1, 13)},
     "l_floor": partial(l_floor, 0.0),
     "l_floor_turned": partial(l_floor, 90.0),
     "u_floor": u_floor,

@@ -38,9 +38,12 @@ constexpr double kLipmDuration_s = 0.45;
 constexpr int kPaperPhases = 18, kPhasesMax = 400;
 /// Friction coefficient that stands for any larger one where a stride is judged. Chosen.
 constexpr double kStrideFrictionMax = 10.0;
-/// So many times as many phases are tried, each over the one before, where the best plan is acceptable. Measured on 150
+/// So many times as many phases are tried where the best plan is acceptable. Measured on 150
 /// random scenes: 7 of 10 failures were too few phases for short steps, the others jumps.
-constexpr double kMorePhases[] = {1.3};
+constexpr double kMorePhases = 1.3;
+/// In more phases than these a walk is one of many steps. Chosen: 43 scenes with an obstacle each have 18 to 50 and are
+/// better restarted at once, ground of patches that are 3 m long has 40 to 80.
+constexpr int kFarPhases = 40;
 /// And where a walk costs more than this a phase. Measured on 115 random scenes (27 November 2026): walks cost 0.004 to
 /// 0.02; four cost more, 0.09 to 0.2, of which more phases made 0.006.
 constexpr double kDearPhase = 0.03;
@@ -286,8 +289,9 @@ constexpr double kAcceptable = 10.0;
 /// that: a base that turns at the goal as fast as the checker allows costs 1e-4. Chosen.
 constexpr int kMendRounds = 5;
 constexpr double kMendRatio = 0.1, kMendTolerance = 1e-6;
-/// At once after an attempt, as long as that makes the motion dearer by no more than this ratio. Chosen.
-constexpr double kMendDearer = 1.25;
+/// Before there are restarts, as long as that makes the motion dearer by no more than this ratio, or a walk in many
+/// phases costs no more than that a phase. Chosen.
+constexpr double kMendDearer = 1.25, kFairPhase = 0.02;
 /// Plans whose costs differ by less, as a ratio, are the same one: it is mended once. Chosen.
 constexpr double kSameOptimum = 1e-3;
 

@@ -15,6 +15,12 @@ bool missed_by_far(const std::vector<Violation>& missed) {
   return std::any_of(missed.begin(), missed.end(), [](const Violation& v) { return violation_ratio(v) > kAcceptable; });
 }
 
+bool far_by_joints_alone(const std::vector<Violation>& missed) {
+  return std::all_of(missed.begin(), missed.end(), [](const Violation& v) {
+    return violation_ratio(v) <= kAcceptable || v.name.rfind("joint_", 0) == 0;
+  });
+}
+
 }  // namespace
 
 /// An attempt, and where the interior point has ended with a near miss, the same motion further inside at once.
@@ -35,7 +41,7 @@ Ending Attempts::mend_last(Ending ending, const Tuning& tuning) {
   const bool roughly = !search_.exact_contacts(tuning);
   const std::vector<Violation> missed = roughly ? std::vector<Violation>() : missed_;
   too_dear_ = false;
-  const Ending mended = mend(last_, tuning, missed, kMendDearer * cost);
+  const Ending mended = mend(last_, tuning, missed, dearest_mended(cost, problem_.steps));
   if (roughly && too_dear_ && (!cheapest_ || cost < cheapest_->at.evaluation.cost)) cheapest_ = NearMiss{last_, tuning};
   const bool its_own =
       mended == Ending::iteration_limit && search_.report().iterations < problem_.options.max_iterations;
@@ -81,7 +87,12 @@ Ending Attempts::mend(Incumbent near, Tuning tuning, std::vector<Violation> miss
     too_dear_ = near.evaluation.cost > dearest;
     if (too_dear_) break;
     missed = finish(near, tuning);
-    if (missed.empty() || missed_by_far(missed)) break;
+    if (missed.empty()) break;
+    if (!missed_by_far(missed)) continue;
+    // Joints that nothing has held so far are no matter of how far they are missed.
+    if (tuning.hold_joints || !far_by_joints_alone(missed)) break;
+    tuning.hold_joints = true;
+    missed.clear();
   }
   return late(Ending::done);
 }

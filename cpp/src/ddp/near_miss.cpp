@@ -70,6 +70,10 @@ void press_further_inside(Problem& problem, double by) {
 
 }  // namespace
 
+double dearest_mended(double cost, int phases) {
+  return phases > kFarPhases ? std::max(kMendDearer * cost, kFairPhase * phases) : kMendDearer * cost;
+}
+
 void tighten(Problem& problem, Tuning& tuning, const std::vector<Violation>& violations) {
   for (const Violation& v : violations) {
     const double length = v.value / problem.units.length;

@@ -18,4 +18,8 @@ void tighten(Problem& problem, Tuning& tuning, const std::vector<Violation>& vio
 /// further inside there, and at the knots, which know of it, nothing is.
 void tighten_between_knots(Problem& problem, Tuning& tuning, std::vector<Violation> violations, const Plan& plan);
 
+/// What a near miss in so many phases may cost once it is mended, to be taken before there are restarts: little more
+/// than now, or what a walk in many phases usually does.
+double dearest_mended(double cost, int phases);
+
 }  // namespace mcplan::ddp

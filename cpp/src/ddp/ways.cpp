@@ -1,6 +1,7 @@
 #include "ddp/ways.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -20,14 +21,6 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 
 namespace {
-
-/// A plan that costs less than this ratio of another one is far cheaper.
-constexpr double kFarCheaper = 0.5;
-
-/// Whether a search that ended so may have missed what it did not look at.
-bool ended_by_itself(Ending ending) {
-  return ending == Ending::done || ending == Ending::broke_down || ending == Ending::no_sequence;
-}
 
 /// Tell of a search that began after so many iterations as if it had come after all that the report has. False, and
 /// nothing is told, where the limit on iterations would have cut it short.
@@ -51,12 +44,6 @@ void name_surfaces(Report& report, std::size_t first_row, const std::vector<int>
     for (ContactState& state : report.history[i].sequence)
       for (int& surface : state)
         if (surface != kFree) surface = surfaces[surface];
-}
-
-/// Whether an accepted plan costs so much that steps as long as that strain the robot. A flight costs more by itself.
-bool strains(const BestPlan::Finished& found) {
-  return found.ok && found.evaluation.cost > kDearPhase * static_cast<double>(found.plan.phases.size()) &&
-         flights(found.plan) == 0;
 }
 
 }  // namespace
@@ -110,7 +97,7 @@ Problem WaysToGoal::pose(const Way& way, int phases, std::vector<int>& surfaces,
   Scene part = part_of(*scene_, surfaces);
   if (way.over_bars) cut_at(bars_across(*scene_, *robot_, options_->sole_inside), *robot_, part, surfaces);
   Problem problem(part, *robot_, with, way.course);
-  problem.watch_swings = way.over_bars;
+  problem.watch_swings = way.over_bars || way.watch;
   return problem;
 }
 
@@ -178,55 +165,9 @@ bool WaysToGoal::crawl_along(const Way& way, Report& report, Found& found, const
   return found.best.solved() || !ended_by_itself(found.ending) || (way.brief && found.crawled);
 }
 
-/// In as many phases as the way asks for.
-Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* beside) const {
-  Found found{BestPlan(*scene_, *deadline_)};
-  found.way = way;
-  if (!crawl_along(way, report, found, beside)) search_in(options_->phases, way, report, found, beside);
-  return found;
-}
-
-/// Where a plan is nearly found, or strains the robot, or a foot has caught the edge of what it can step on, the same
-/// way in more phases: ground may ask for shorter steps than the robot can make. Detours are tried so before the other
-/// ways are searched, which would use up the iterations.
-void WaysToGoal::try_more_phases(Report& report, Found& found) const {
-  if (options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper)
-    return;
-  if (found.crawled) return;  // in as many
-  for (const double factor : kMorePhases) {
-    const auto& best = found.best.best();
-    if (!best || !ended_by_itself(found.ending) || (best->ok && !strains(*best))) return;
-    const bool caught = best->worst.name == "clearance" && !found.barrier;
-    if (!best->ok && !caught && violation_ratio(best->worst) > kAcceptable) return;
-    const int phases = 2 * static_cast<int>(0.5 * factor * found.steps);
-    if (phases > kPhasesMax) return;
-    if (best->ok) return take_if_cheaper(phases, report, found);
-    search_in(phases, found.way, report, found);
-    tell(found.way, found);
-  }
-}
-
-/// The same way in so many phases, as if nothing had been found: the cheaper plan counts. There are restarts only where
-/// they may lead to a far cheaper one.
-void WaysToGoal::take_if_cheaper(int phases, Report& report, Found& found) const {
-  Found more{BestPlan(*scene_, *deadline_)};
-  more.way = found.way;
-  const auto look = [&](bool brief) {
-    more.way.brief = brief;
-    search_in(phases, more.way, report, more);
-    tell(more.way, more);
-  };
-  look(true);
-  const std::optional<BestPlan::Finished>& near = more.best.best();
-  if (near && !near->ok && ended_by_itself(more.ending) && violation_ratio(near->worst) <= kAcceptable &&
-      near->evaluation.cost < kFarCheaper * found.best.best()->evaluation.cost)
-    look(false);
-  if (!ended_by_itself(more.ending)) found.ending = more.ending;
-  if (better(more.best.best(), found.best.best())) found = std::move(more);
-}
-
-/// Where the checker rejects the best plan by little, what its own sequence makes of it.
-void WaysToGoal::mend(Report& report, Found& found) const {
+/// Where the checker rejects the best plan by little, what its own sequence makes of it, if that costs no more than the
+/// dearest.
+void WaysToGoal::mend(Report& report, Found& found, double dearest, const Beside* beside) const {
   const std::optional<BestPlan::Finished>& best = found.best.best();
   if (options_->restarts == 0 || options_->method == Method::paper || !best || found.best.ok()) return;
   if (!ended_by_itself(found.ending) && found.ending != Ending::iteration_limit) return;
@@ -239,17 +180,17 @@ void WaysToGoal::mend(Report& report, Found& found) const {
     for (int surface : row)
       if (surface >= 0) needed.insert(surface);
   std::vector<int> surfaces(needed.begin(), needed.end());
-  Problem problem = pose(found.way, phases, surfaces, nullptr);
+  Problem problem = pose(found.way, phases, surfaces, beside);
   Incumbent near = from_plan(problem, best->plan, 0);
   if (found.way.over_bars) name_pieces(problem, surfaces, near);
   if (near.sequence.empty() || !problem.rules.valid(near.sequence)) return;
   const Tuning tuning = best->tuning;
   Attempts attempts(std::move(problem), surfaces, *deadline_, found.best, report);
-  const Ending ending = attempts.mend(std::move(near), tuning);
+  const Ending ending = attempts.mend(std::move(near), tuning, {}, dearest);
   name_surfaces(report, rows, surfaces);
   if (ending == Ending::time_limit || ending == Ending::interrupted) found.ending = ending;
   found.best.settle(attempts.problem(), report);
-  tell(found.way, found);
+  if (!beside) tell(found.way, found);
 }
 
 /// At the start and at the goal.
@@ -353,14 +294,19 @@ Found WaysToGoal::search(Report& report) const {
       way.brief = false;
       ahead = nullptr;
     }
+    if (way.brief && best->way.longer) {
+      way.longer = true;
+      ahead = nullptr;
+    }
     const bool told = ahead && ahead->found && append(report, std::move(ahead->report), ahead->before, *options_);
     Found found = told ? std::move(*ahead->found) : search_along(way, report);
     tell(way, found);
     // What is nearly a plan is mended in less time than it takes to look at more phases. (Measured: a block of 0.3 m in
     // the way of talos, 0.17 in 6 s; in more phases 0.25 in 9 s.)
     const bool detour = !way.course.route.empty();
-    if (detour || way.over_bars) mend(report, found);
-    if (detour) try_more_phases(report, found);
+    const double dearest = way.brief ? best->best.best()->evaluation.cost : std::numeric_limits<double>::infinity();
+    if (detour || way.over_bars) mend(report, found, dearest);
+    if (way.brief ? strains(*best->best.best()) : detour) try_more_phases(report, found);
     const bool its_own = found.ending == Ending::iteration_limit && report.iterations < options_->max_iterations;
     if (!ended_by_itself(found.ending) && !its_own) cut_short = found.ending;
     if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
@@ -391,7 +337,7 @@ Found WaysToGoal::search(Report& report) const {
   if (!ended_by_itself(cut_short) && !best->best.ok()) best->ending = cut_short;
   best->barrier = routes.barrier;
   if (best->way.course.route.empty()) try_more_phases(report, *best);
-  mend(report, *best);
+  mend(report, *best, std::numeric_limits<double>::infinity());
   return std::move(*best);
 }
 

@@ -19,6 +19,8 @@ struct Way {
   bool flights = true;
   int min_contacts = 0;
   bool brief = false;        ///< one attempt: there is a plan already, and this way is the answer only if it costs less
+  bool watch = false;        ///< swings are held out of solids from the first attempt on
+  bool longer = false;       ///< at once in more phases than its length asks for, as the plan that there is
   bool crawl_known = false;  ///< what a crawl comes to is known
   int iterations = 0;        ///< of the report, after which it ends; 0: the limit of the options
   bool over_bars = false;    ///< the ground is cut at what stands low across the way
@@ -31,9 +33,16 @@ struct Found {
   int steps = 0;
   Way way = {};
   bool crawled = false;                 ///< also in more phases than the way asks for
+  bool tried_more = false;              ///< in more phases than the way asks for
   std::vector<int> surfaces = {};       ///< that it has looked at
   std::optional<Barrier> barrier = {};  ///< why no ground leads to the goal
 };
+
+/// Whether a search that ended so may have missed what it did not look at.
+bool ended_by_itself(Ending ending);
+
+/// Whether an accepted plan costs so much that steps as long as that strain the robot. A flight costs more by itself.
+bool strains(const BestPlan::Finished& found);
 
 /// The ways from the start of a scene to its goal, and a search along each. Theory: docs/theory/ddp.md, "Routes".
 class WaysToGoal {
@@ -63,9 +72,10 @@ class WaysToGoal {
   bool crawl_along(const Way& way, Report& report, Found& found, const Beside* beside) const;
   void search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside = nullptr) const;
   Found search_along(const Way& way, Report& report, const Beside* beside = nullptr) const;
-  void try_more_phases(Report& report, Found& found) const;
-  void take_if_cheaper(int phases, Report& report, Found& found) const;
-  void mend(Report& report, Found& found) const;
+  int more_phases(const Found& found) const;
+  int first_phases(const Way& way) const;
+  void try_more_phases(Report& report, Found& found, const Beside* beside = nullptr) const;
+  void mend(Report& report, Found& found, double dearest, const Beside* beside = nullptr) const;
   bool four_feet_stand() const;
   /// Ways to try, those that may lead to the goal, and others for want of a plan; `bars`: something low stands across.
   struct Listed {

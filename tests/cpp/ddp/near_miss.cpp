@@ -174,3 +174,10 @@ TEST_CASE("what a contact misses of its reach between knots is kept further insi
               .isApprox(Vector3d::Constant(0.004), 1e-9));
   }
 }
+
+TEST_CASE("a near miss may cost a little more once it is mended, and a walk in many phases what walks do") {
+  CHECK(mcplan::ddp::dearest_mended(0.4, 18) == doctest::Approx(0.5));
+  CHECK(mcplan::ddp::dearest_mended(0.4, 40) == doctest::Approx(0.5));
+  CHECK(mcplan::ddp::dearest_mended(0.4, 60) == doctest::Approx(1.2));
+  CHECK(mcplan::ddp::dearest_mended(4.0, 60) == doctest::Approx(5.0));
+}

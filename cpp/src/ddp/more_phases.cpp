@@ -1,0 +1,98 @@
+#include <utility>
+
+#include "ddp/constants.hpp"
+#include "ddp/near_miss.hpp"
+#include "ddp/plan_conversion.hpp"
+#include "ddp/ways.hpp"
+
+// A way in more phases than its length asks for: docs/theory/ddp.md, "5. Check, restarts, statuses".
+namespace mcplan::ddp {
+
+namespace {
+
+/// A plan that costs less than this ratio of another one is far cheaper.
+constexpr double kFarCheaper = 0.5;
+
+}  // namespace
+
+bool ended_by_itself(Ending ending) {
+  return ending == Ending::done || ending == Ending::broke_down || ending == Ending::no_sequence;
+}
+
+bool strains(const BestPlan::Finished& found) {
+  return found.ok && found.evaluation.cost > kDearPhase * static_cast<double>(found.plan.phases.size()) &&
+         flights(found.plan) == 0;
+}
+
+/// In how many phases the same way is tried where a plan is nearly found, or strains the robot, or a foot has caught
+/// the edge of what it can step on: ground may ask for shorter steps than the robot can make. 0: in no others.
+int WaysToGoal::more_phases(const Found& found) const {
+  if (options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper)
+    return 0;
+  const auto& best = found.best.best();
+  if (found.crawled || found.way.longer || !best || !ended_by_itself(found.ending) || (best->ok && !strains(*best)))
+    return 0;
+  const bool caught = best->worst.name == "clearance" && !found.barrier;
+  if (!best->ok && !caught && violation_ratio(best->worst) > kAcceptable) return 0;
+  const int phases = 2 * static_cast<int>(0.5 * kMorePhases * found.steps);
+  return phases <= kPhasesMax ? phases : 0;
+}
+
+/// The number of phases in which a way is searched first.
+int WaysToGoal::first_phases(const Way& way) const {
+  const int asked = pose_within(0, way, options_->phases, nullptr).problem.steps;
+  if (!way.longer || options_->phases > 0) return asked;
+  const int phases = 2 * static_cast<int>(0.5 * kMorePhases * asked);
+  return phases <= kPhasesMax ? phases : asked;
+}
+
+/// In as many phases as the way asks for. Where these are many, a restart takes long and has to be lucky at each of
+/// many steps: first the same is tried in more of them, with shorter steps, and near misses are mended.
+Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* beside) const {
+  Found found{BestPlan(*scene_, *deadline_)};
+  found.way = way;
+  if (crawl_along(way, report, found, beside)) return found;
+  const bool given = earlier_ || options_->phases > 0;
+  const int first = given ? options_->phases : first_phases(way);
+  const bool far = !given && !way.brief && options_->restarts > 0 && first > kFarPhases;
+  found.way.brief = way.brief || far;
+  search_in(first, found.way, report, found, beside);
+  if (!far) return found;
+  try_more_phases(report, found, beside);
+  found.way.brief = false;
+  if (const auto& near = found.best.best())
+    mend(report, found, dearest_mended(near->evaluation.cost, static_cast<int>(near->plan.phases.size())), beside);
+  if (!found.best.ok() && ended_by_itself(found.ending)) search_in(first, way, report, found, beside);
+  found.way.longer = found.best.ok() && static_cast<int>(found.best.best()->plan.phases.size()) > first;
+  return found;
+}
+
+/// The same way in more phases, as if nothing had been found: the better plan counts.
+void WaysToGoal::try_more_phases(Report& report, Found& found, const Beside* beside) const {
+  const int phases = more_phases(found);
+  if (phases == 0 || (found.best.ok() && found.tried_more)) return;
+  Found more{BestPlan(*scene_, *deadline_)};
+  more.tried_more = true;
+  const bool plan = found.best.ok();
+  const auto look = [&](bool brief) {
+    more.way = found.way;
+    more.way.brief = brief;
+    more.way.watch = more.way.watch || (!plan && found.best.best()->worst.name == "clearance");
+    search_in(phases, more.way, report, more, beside);
+    if (!beside) tell(more.way, more);
+  };
+  look(plan || found.way.brief);
+  const std::optional<BestPlan::Finished>& near = more.best.best();
+  // Restarts only where they may lead to a far cheaper one.
+  if (plan && near && !near->ok && ended_by_itself(more.ending) && violation_ratio(near->worst) <= kAcceptable &&
+      near->evaluation.cost < kFarCheaper * found.best.best()->evaluation.cost)
+    look(false);
+  found.tried_more = true;
+  if (!ended_by_itself(more.ending)) found.ending = more.ending;
+  if (!better(more.best.best(), found.best.best())) return;
+  more.way.brief = found.way.brief;
+  more.way.longer = more.best.ok();
+  found = std::move(more);
+}
+
+}  // namespace mcplan::ddp
