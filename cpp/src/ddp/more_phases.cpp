@@ -1,3 +1,4 @@
+#include <limits>
 #include <utility>
 
 #include "ddp/constants.hpp"
@@ -65,6 +66,16 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
   if (!found.best.ok() && ended_by_itself(found.ending)) search_in(first, way, report, found, beside);
   found.way.longer = found.best.ok() && static_cast<int>(found.best.best()->plan.phases.size()) > first;
   return found;
+}
+
+/// What is nearly a plan is mended in less time than it takes to look at more phases. (Measured: a block of 0.3 m in
+/// the way of talos, 0.17 in 6 s; in more phases 0.25 in 9 s.) `plan`: what there is on other ways, or null.
+void WaysToGoal::improve(const Way& way, const BestPlan::Finished* plan, Report& report, Found& found) const {
+  const bool detour = !way.course.route.empty();
+  const bool beside = way.brief && plan;
+  const double dearest = beside ? plan->evaluation.cost : std::numeric_limits<double>::infinity();
+  if (detour || way.over_bars) mend(report, found, dearest);
+  if (beside ? strains(*plan) : detour) try_more_phases(report, found);
 }
 
 /// The same way in more phases, as if nothing had been found: the better plan counts.
