@@ -75,10 +75,10 @@ def test_near_misses_are_mended_within_a_tenth_of_the_iterations_the_same_each_t
 
 def test_treads_that_ask_for_short_steps_are_climbed_in_more_phases() -> None:
     few = mp.plan(stairs(0.35), "talos", phases=26)
-    assert few.report.worst_violation.name == "clearance"
     result = mp.plan(stairs(0.35), "talos")
     assert result.report.status == mp.Status.solved, result.report.message
     assert len(result.plan.phases) > 26
+    assert few.report.status != mp.Status.solved or few.report.cost > 2.0 * result.report.cost  # strained
 
 
 @pytest.mark.parametrize("robot", ["talos", "g1"])
