@@ -8,6 +8,7 @@ namespace mcplan::bindings {
 
 void bind_online(py::module_& parent) {
   py::module_ m = parent.def_submodule("online", "Planning while the robot walks: what to do with a replan's plan.");
+  m.attr("HEIGHT_MARGIN_M") = online::kHeightMargin_m;
   m.def("follows", &online::follows, py::arg("report"), py::arg("period_s"),
         "Whether it is better to follow the plan of a replan than to stay with the plan under way: it was made from "
         "the measured state, and it is solved, acceptable, or keeps all limits for twice the time [s] between two "

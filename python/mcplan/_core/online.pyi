@@ -6,7 +6,7 @@ from __future__ import annotations
 import mcplan._core
 import typing
 
-__all__: list[str] = ["follows", "with_feet_kept_up", "with_planned_height"]
+__all__: list[str] = ["HEIGHT_MARGIN_M", "follows", "with_feet_kept_up", "with_planned_height"]
 
 def follows(report: mcplan._core.Report, period_s: typing.SupportsFloat | typing.SupportsIndex) -> bool:
     """
@@ -27,3 +27,5 @@ def with_planned_height(
     """
     The state from which to plan on at time t [s] in the plan under way: the measured one, but with height and vertical velocity of the CoM as planned where they are off by less than a margin [m].
     """
+
+HEIGHT_MARGIN_M: float = 0.03

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mcplan._core import Knot, Plan, PlanFrom, Status
-from mcplan._core.online import follows, with_feet_kept_up, with_planned_height
+from mcplan._core.online import HEIGHT_MARGIN_M, follows, with_feet_kept_up, with_planned_height
 from mcplan.arguments import require, require_number
 from mcplan.errors import InvalidInput, InvalidOptions, shown
 from mcplan.solve import command_of, replan, replan_options
@@ -120,7 +120,7 @@ class Planner:
         *,
         command: tuple[float, float, float] | None = None,
         period_s: float = 0.1,
-        height_margin_m: float = 0.03,
+        height_margin_m: float = HEIGHT_MARGIN_M,
         **named: Any,
     ) -> None:
         require("plan", plan, Plan)
