@@ -25,11 +25,15 @@ bool strains(const BestPlan::Finished& found) {
          flights(found.plan) == 0;
 }
 
+/// Whether it is not the way that says how many phases there are.
+bool WaysToGoal::phases_given() const {
+  return options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper;
+}
+
 /// In how many phases the same way is tried where a plan is nearly found, or strains the robot, or a foot has caught
 /// the edge of what it can step on: ground may ask for shorter steps than the robot can make. 0: in no others.
 int WaysToGoal::more_phases(const Found& found) const {
-  if (options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper)
-    return 0;
+  if (phases_given()) return 0;
   const auto& best = found.best.best();
   if (found.crawled || found.way.longer || !best || !ended_by_itself(found.ending) || (best->ok && !strains(*best)))
     return 0;
@@ -41,8 +45,8 @@ int WaysToGoal::more_phases(const Found& found) const {
 
 /// The number of phases in which a way is searched first.
 int WaysToGoal::first_phases(const Way& way) const {
-  const int asked = pose_within(0, way, options_->phases, nullptr).problem.steps;
-  if (!way.longer || options_->phases > 0) return asked;
+  const int asked = pose_within(0, way, 0, nullptr).problem.steps;
+  if (!way.longer) return asked;
   const int phases = 2 * static_cast<int>(0.5 * kMorePhases * asked);
   return phases <= kPhasesMax ? phases : asked;
 }
@@ -53,9 +57,8 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
   Found found{BestPlan(*scene_, *deadline_)};
   found.way = way;
   if (crawl_along(way, report, found, beside)) return found;
-  const bool given = earlier_ || options_->phases > 0;
-  const int first = given ? options_->phases : first_phases(way);
-  const bool far = !given && !way.brief && options_->restarts > 0 && first > kFarPhases;
+  const int first = phases_given() ? options_->phases : first_phases(way);
+  const bool far = !phases_given() && !way.brief && options_->restarts > 0 && first > kFarPhases;
   found.way.brief = way.brief || far;
   search_in(first, found.way, report, found, beside);
   if (!far) return found;

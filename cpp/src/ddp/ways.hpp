@@ -73,6 +73,7 @@ class WaysToGoal {
   void search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside = nullptr) const;
   Found search_along(const Way& way, Report& report, const Beside* beside = nullptr) const;
   void improve(const Way& way, const BestPlan::Finished* plan, Report& report, Found& found) const;
+  bool phases_given() const;
   int more_phases(const Found& found) const;
   int first_phases(const Way& way) const;
   void try_more_phases(Report& report, Found& found, const Beside* beside = nullptr) const;
