@@ -19,6 +19,8 @@ namespace {
 /// heels of TALOS are 16 mm longer than its sole, swings that fall steeply beside a wall land 20 mm off and late, and
 /// with 0.03 m one still caught its edge.
 constexpr double kWallRoom_m = 0.04, kWallShare = 0.5, kWallNarrow = 0.48;
+/// Cosine of the angle to the headings of start and goal, above which an edge is ahead. Chosen.
+constexpr double kAhead = 0.7;
 
 }  // namespace
 
@@ -105,7 +107,10 @@ void Problem::make_foothold_margins() {
         const double margin = std::min(inside, std::max(kNarrow * width, width - inside));
         // Links are longer than the sole, and land beside where they should: half of the width is left of what is
         // narrow.
-        const double wall = extent > 0.0 ? walls.beyond(static_cast<int>(surface), i) : 0.0;
+        // A foot comes to what is ahead of it from below, and steps up from there.
+        const bool ahead = outward.dot(Vector3d(std::cos(start_heading), std::sin(start_heading), 0.0)) > kAhead &&
+                           outward.dot(Vector3d(std::cos(goal_yaw), std::sin(goal_yaw), 0.0)) > kAhead;
+        const double wall = extent > 0.0 && !ahead ? walls.beyond(static_cast<int>(surface), i) : 0.0;
         const double room = std::min(kWallRoom_m * unit, kWallShare * wall);
         of_surface.push_back(std::max(margin, std::min(margin + room, kWallNarrow * width)));
       }

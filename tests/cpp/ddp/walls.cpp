@@ -60,29 +60,30 @@ TEST_CASE("a patch that rises beside the edge is a wall where it does") {
   CHECK(walls.front() == doctest::Approx(0.096).epsilon(0.01));  // of the places that are looked at
 }
 
-TEST_CASE("footholds keep from walls, as far as narrow ground allows") {
+TEST_CASE("footholds keep from walls behind and beside them, as far as narrow ground allows, not from those ahead") {
   for (const double length : {1.0, 0.26}) {
     CAPTURE(length);
-    const auto margin_ahead = [&](double height) {
+    const auto margin = [&](double before, double beyond, double ahead) {
       const mcplan::Scene scene = scenes::made_of(
           "steps",
-          {scenes::rectangle("near", -1, 1, -1, 1, 0), scenes::rectangle("tread", 1, 1 + length, -1, 1, 0),
-           scenes::rectangle("high", 1 + length, 3, -1, 1, height)},
-          "near", "high", {2.0, 0.0, height});
+          {scenes::rectangle("near", -1, 1, -1, 1, before), scenes::rectangle("tread", 1, 1 + length, -1, 1, 0),
+           scenes::rectangle("far", 1 + length, 3, -1, 1, beyond)},
+          "near", "far", {2.0, 0.0, beyond});
       mcplan::ddp::Options options = phases(20);
       options.sole_inside = 1.0;
       const mcplan::ddp::Problem problem(scene, scenes::humanoid44(), options);
       const Polygon& tread = problem.polygons[1];
       for (int edge = 0; edge < tread.edge_count(); ++edge)
-        if (tread.edge_outward_W(edge).x() > 0.99)
+        if (ahead * tread.edge_outward_W(edge).x() > 0.99)
           return problem.foothold_margin(1, 1, edge) * problem.units.length / problem.similarity.length;
       return -1.0;
     };
-    const double more = margin_ahead(0.1) - margin_ahead(0.0);
-    CHECK(margin_ahead(0.04) - margin_ahead(0.0) == doctest::Approx(0.02));
+    const double level = margin(0.0, 0.0, -1.0), more = margin(0.1, 0.0, -1.0) - level;
+    CHECK(margin(0.04, 0.0, -1.0) - level == doctest::Approx(0.02));
     if (length > 0.5)
       CHECK(more == doctest::Approx(0.04));
     else
       CHECK((more > 0.0 && more < 0.04));
+    CHECK(margin(0.0, 0.1, 1.0) == margin(0.0, 0.0, 1.0));
   }
 }
