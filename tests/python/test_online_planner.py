@@ -185,7 +185,7 @@ knot, contacts = state_at(plan, 1.0)
 knot.com_velocity_W = knot.com_velocity_W + [0.0, 0.3, 0.0]
 planner = Planner(plan)
 planner.submit(MeasuredState(1.0, knot, tuple(contacts)))
-while not planner._mailbox._computing:
+while planner._mailbox._waiting:  # until the thread has taken it
     pass
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=Path(__file__).parent)

@@ -38,8 +38,8 @@ constexpr double kLipmDuration_s = 0.45;
 constexpr int kPaperPhases = 18, kPhasesMax = 400;
 /// Friction coefficient that stands for any larger one where a stride is judged. Chosen.
 constexpr double kStrideFrictionMax = 10.0;
-/// So many times as many phases are tried where the best plan is acceptable. Measured on 150
-/// random scenes: 7 of 10 failures were too few phases for short steps, the others jumps.
+/// So many times as many phases are tried where the best plan is acceptable. Measured on 150 random scenes: 7 of 10
+/// failures were too few phases for short steps, the others jumps.
 constexpr double kMorePhases = 1.3;
 /// In more phases than these a walk is one of many steps. Chosen: 43 scenes with an obstacle each have 18 to 50 and are
 /// better restarted at once, ground of patches that are 3 m long has 40 to 80.

@@ -105,9 +105,8 @@ void Problem::make_foothold_margins() {
         // A point foot is a ball in truth, and lands with what error a controller leaves.
         const double inside = limit.balances ? kPointMargin : ratio * extent;
         const double margin = std::min(inside, std::max(kNarrow * width, width - inside));
-        // Links are longer than the sole, and land beside where they should: half of the width is left of what is
-        // narrow.
-        // A foot comes to what is ahead of it from below, and steps up from there.
+        // Links are longer than the sole and land beside where they should. A foot comes to what is ahead of it from
+        // below, and steps up from there. Of what is narrow a little more than nothing is left.
         const bool ahead = outward.dot(Vector3d(std::cos(start_heading), std::sin(start_heading), 0.0)) > kAhead &&
                            outward.dot(Vector3d(std::cos(goal_yaw), std::sin(goal_yaw), 0.0)) > kAhead;
         const double wall = extent > 0.0 && !ahead ? walls.beyond(static_cast<int>(surface), i) : 0.0;

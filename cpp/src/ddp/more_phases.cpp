@@ -14,6 +14,12 @@ namespace {
 /// A plan that costs less than this ratio of another one is far cheaper.
 constexpr double kFarCheaper = 0.5;
 
+/// More phases than so many; 0: there would be too many.
+int more_than(int phases) {
+  const int more = 2 * static_cast<int>(0.5 * kMorePhases * phases);
+  return more <= kPhasesMax ? more : 0;
+}
+
 }  // namespace
 
 bool ended_by_itself(Ending ending) {
@@ -39,16 +45,13 @@ int WaysToGoal::more_phases(const Found& found) const {
     return 0;
   const bool caught = best->worst.name == "clearance" && !found.barrier;
   if (!best->ok && !caught && violation_ratio(best->worst) > kAcceptable) return 0;
-  const int phases = 2 * static_cast<int>(0.5 * kMorePhases * found.steps);
-  return phases <= kPhasesMax ? phases : 0;
+  return more_than(found.steps);
 }
 
 /// The number of phases in which a way is searched first.
 int WaysToGoal::first_phases(const Way& way) const {
   const int asked = pose_within(0, way, 0, nullptr).problem.steps;
-  if (!way.longer) return asked;
-  const int phases = 2 * static_cast<int>(0.5 * kMorePhases * asked);
-  return phases <= kPhasesMax ? phases : asked;
+  return way.longer && more_than(asked) > 0 ? more_than(asked) : asked;
 }
 
 /// In as many phases as the way asks for. Where these are many, a restart takes long and has to be lucky at each of
@@ -75,10 +78,10 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
 /// the way of talos, 0.17 in 6 s; in more phases 0.25 in 9 s.) `plan`: what there is on other ways, or null.
 void WaysToGoal::improve(const Way& way, const BestPlan::Finished* plan, Report& report, Found& found) const {
   const bool detour = !way.course.route.empty();
-  const bool beside = way.brief && plan;
-  const double dearest = beside ? plan->evaluation.cost : std::numeric_limits<double>::infinity();
+  const bool only_if_cheaper = way.brief && plan;
+  const double dearest = only_if_cheaper ? plan->evaluation.cost : std::numeric_limits<double>::infinity();
   if (detour || way.over_bars) mend(report, found, dearest);
-  if (beside ? strains(*plan) : detour) try_more_phases(report, found);
+  if (only_if_cheaper ? strains(*plan) : detour) try_more_phases(report, found);
 }
 
 /// The same way in more phases, as if nothing had been found: the better plan counts.

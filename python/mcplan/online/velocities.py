@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.rotations import rotations_of
+
 if TYPE_CHECKING:
     from mcplan.tracking.recording import Recording
 
@@ -62,8 +64,8 @@ def _mean_velocity(recording: Recording, first: int, last: int) -> Velocity:
 
 def _headings(quat_xyzw: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n,) headings without jumps [rad]."""
-    x, y, z, w = quat_xyzw.T
-    return np.unwrap(np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)))
+    rotations = rotations_of(quat_xyzw)
+    return np.unwrap(np.arctan2(rotations[:, 1, 0], rotations[:, 0, 0]))
 
 
 def reached_text(reached: tuple[CommandReached, ...]) -> str:
