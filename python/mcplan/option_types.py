@@ -172,6 +172,9 @@ class DdpReplanOptions(DdpOptions, total=False):
     step across it, in front of it or behind it."""
     max_work: int
     """Iterations times phases, over all sequences, after which no other one is tried: 1000 take about 30 ms."""
+    previous_accepted: bool
+    """The checker has accepted the plan under way, to its end: what is kept of it, on the same scene and for the same
+    robot, is not looked at again."""
 
 
 class RhpOptions(TypedDict, total=False):

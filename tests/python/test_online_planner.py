@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 import mcplan as mp
+import mcplan.online.planner as planner_module
+from mcplan import solve
 from mcplan.errors import InvalidArgument
 from mcplan.online import MeasuredState, OnlineOptions, Planner
 from mcplan.online.pacing import Pace, distances, steps_left
@@ -133,6 +135,27 @@ def test_the_next_plan_is_made_from_the_one_taken_over(plan):
     assert second.plan.duration() == pytest.approx(plan.duration() - 1.2, abs=0.4)
 
 
+def test_what_a_replan_keeps_of_an_accepted_plan_is_not_looked_at_again(monkeypatch):
+    plan, looked_s = mp.plan("flat", "talos").plan, []
+
+    def noted(*given):
+        result = solve.replan(*given)
+        looked_s.append((result.report.checked_until_s, result.report.kept_until_s, result.plan.duration()))
+        return result
+
+    monkeypatch.setattr(planner_module, "replan", noted)
+    with Planner(plan, horizon=6) as planner:
+        for time_s in (0.6, 0.7):
+            planner.submit(state(planner.plan, time_s - planner.begins_s, clock_s=time_s))
+            update = planner.wait()
+            assert update.status == "solved"
+            planner.take_over(update)
+    # The first plan came from a file or a search: the planner does not know what the checker says of it.
+    first, second = looked_s
+    assert first[0] == first[2] and second[0] < second[2]
+    assert second[1] == second[2] and mp.check(update.plan).ok()
+
+
 def test_a_state_that_waits_is_replaced_by_a_later_one(plan):
     with Planner(plan) as planner:
         for t in (0.5, 0.6, 0.7, 0.8):
@@ -178,6 +201,7 @@ def test_a_planner_that_nobody_uses_any_more_ends_its_thread_without_being_close
 def test_python_ends_while_a_planner_computes():
     script = """
 import mcplan as mp
+import mcplan.online.planner as planner_module
 from planned_states import state_at
 from mcplan.online import MeasuredState, Planner
 plan = mp.plan("flat", "talos").plan

@@ -180,6 +180,9 @@ void bind_report(py::module_& m) {
   report.def_readonly("plan_from", &Report::plan_from, "Of a replan: where its plan comes from.");
   report.def_readonly("kept_until_s", &Report::kept_until_s,
                       "Of a replan: time [s] until which its plan keeps all limits.");
+  report.def_readonly("checked_until_s", &Report::checked_until_s,
+                      "Of a replan: time [s] until which the checker looked at its plan. What comes later is kept of the "
+                      "plan before as it was accepted (previous_accepted).");
   def_items(report, "start_violations", &Report::start_violations,
             "Tuple of Violation: of a replan, what the measured state violates by itself, worst first.");
   report.def_readonly("seed", &Report::seed);
@@ -198,8 +201,8 @@ void bind_report(py::module_& m) {
   def_pickle(report, &Report::status, &Report::message, &Report::iterations, &Report::switches, &Report::time_s,
              &Report::timing_s, &Report::cost, &Report::cost_terms, &Report::worst_violation, &Report::warnings,
              &Report::friction_use, &Report::seed, &Report::threads, &Report::parallel_loops, &Report::plan_from,
-             &Report::kept_until_s, &Report::start_violations, &Report::paper_verdict, &Report::paper_cost,
-             &Report::version, &Report::history);
+             &Report::kept_until_s, &Report::checked_until_s, &Report::start_violations, &Report::paper_verdict,
+             &Report::paper_cost, &Report::version, &Report::history);
 
   py::class_<PlanResult> result(m, "PlanResult", "A plan and how it was found.");
   result.def_property_readonly("plan", [](PlanResult& self) -> Plan& { return self.plan; });

@@ -28,6 +28,7 @@ struct Question {
   MeasuredState state;
   std::shared_ptr<const Plan> plan;
   double begins_s = 0.0;
+  bool accepted = false;
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const std::vector<Robot>> robots;
   PlannerOptions options;
@@ -45,6 +46,7 @@ PlanResult first_usable(const Question& question) {
       with_planned_height(std::move(measured.state), *question.plan, t_now, question.options.height_margin_m);
   std::optional<PlanResult> found;
   ddp::ReplanOptions options = question.options.replan;
+  options.previous_accepted = options.previous_accepted || question.accepted;
   for (const Robot& robot : *question.robots) {
     PlanResult result = ddp::replan(*question.plan, t, measured, scene, robot, options);
     options.crossing = true;  // those after the first are for emergencies
@@ -104,7 +106,8 @@ struct Planner::Work {
     while (true) {
       changed.wait(lock, [&] { return closed || waiting; });
       if (closed) return;
-      Question question{ticket, *std::exchange(waiting, std::nullopt), under_way, begins_s, scene, robots, options};
+      Question question{ticket, *std::exchange(waiting, std::nullopt), under_way, begins_s, accepted, scene, robots,
+                        options};
       computing = true;
       lock.unlock();
       Update update = answer(question);
@@ -124,6 +127,7 @@ struct Planner::Work {
   std::atomic<bool> closed = false;
   std::shared_ptr<const Plan> under_way;
   double begins_s;
+  bool accepted = false;  // by the checker
   std::shared_ptr<const Scene> scene;
   const std::shared_ptr<const std::vector<Robot>> own_robot;  // of the first plan
   std::shared_ptr<const std::vector<Robot>> robots;
@@ -181,6 +185,7 @@ void Planner::take_over(const Update& update) {
   const std::lock_guard<std::mutex> lock(work_->mutex);
   work_->under_way.swap(plan);
   work_->begins_s = update.begins_s;
+  work_->accepted = update.result->report.status == Status::solved;
 }
 
 void Planner::set_command(std::optional<ddp::VelocityCommand> command) {

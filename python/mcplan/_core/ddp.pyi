@@ -763,6 +763,7 @@ class ReplanOptions:
         recovery_first: bool = False,
         crossing: bool = False,
         max_work: typing.SupportsInt | typing.SupportsIndex = 1000,
+        previous_accepted: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -812,6 +813,13 @@ class ReplanOptions:
         """
     @phases_min.setter
     def phases_min(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def previous_accepted(self) -> bool:
+        """
+        The checker has accepted the plan under way, to its end: what is kept of it, on the same scene and for the same robot, is not looked at again.
+        """
+    @previous_accepted.setter
+    def previous_accepted(self, arg0: bool) -> None: ...
     @property
     def recovery_first(self) -> bool:
         """

@@ -132,7 +132,7 @@ class Planner:
             raise InvalidOptions("height_margin_m", "must be 0 at least", shown(height_margin_m))
         command_of(command)
         replan_options(named)
-        self._under_way = plan, float(begins_s)  # one object, as both change at once beside the thread
+        self._under_way = plan, float(begins_s), False  # one object, as all change at once beside the thread
         self.command, self.period_s, self._height_margin_m = command, period_s, float(height_margin_m)
         self.scene: Scene | None = None
         self.robots: list[Robot] = [plan.robot]
@@ -189,6 +189,8 @@ class Planner:
     def take_over(self, update: Update) -> None:
         """The controller follows this update from now on: the next plans are made from it.
 
+        What was solved is not looked at again (``previous_accepted`` of mcplan.replan).
+
         Raises:
             InvalidArgument: It is no Update, or what it has for a plan and its begin is none.
             InvalidInput: It has no plan, or begins at no finite time.
@@ -199,7 +201,7 @@ class Planner:
         require("update.plan", update.plan, Plan)
         if not np.isfinite(require_number("update.begins_s", update.begins_s)):
             raise InvalidInput("update.begins_s", "must be finite", shown(update.begins_s))
-        self._under_way = update.plan, float(update.begins_s)
+        self._under_way = update.plan, float(update.begins_s), update.status == Status.solved.name
 
     def close(self) -> None:
         """End the thread after what it computes now."""
@@ -214,8 +216,8 @@ class Planner:
 
     def _update(self, ticket: int, request: Request) -> Update:
         state, named = request
-        plan, begins_s = self._under_way
-        return self._computed(ticket, state, plan, begins_s, {**self._named, **named})
+        plan, begins_s, accepted = self._under_way
+        return self._computed(ticket, state, plan, begins_s, {"previous_accepted": accepted, **self._named, **named})
 
     def _computed(
         self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float, named: Mapping[str, Any]

@@ -9,6 +9,7 @@
 #include "mcplan/ddp/plan.hpp"
 #include "mcplan/online/following.hpp"
 #include "mcplan/plan/checker.hpp"
+#include "mcplan/robot/robot_files.hpp"
 #include "scenes.hpp"
 
 using namespace mcplan;
@@ -95,6 +96,23 @@ TEST_CASE("the next plan is made from the one taken over, by the planner's threa
   REQUIRE((second && second->usable));
   CHECK(second->begins_s == 0.7);
   CHECK(second->result->plan.duration() == doctest::Approx(walk().duration() - 1.2).epsilon(0.2));
+}
+
+TEST_CASE("what the planner's thread keeps of a plan that was solved is not looked at again") {
+  const Plan plan = ddp::plan(scenes::flat(), load_robot("talos")).plan;
+  PlannerOptions options;
+  options.replan.horizon = 6;
+  Planner planner(plan, 0.0, options);
+  planner.submit(state(plan, 0.6, 0.6));
+  const std::optional<Update> first = planner.wait();
+  REQUIRE((first && first->result && first->result->report.status == Status::solved));
+  CHECK(first->result->report.checked_until_s == first->result->plan.duration());  // nobody has said what the plan is
+  planner.take_over(*first);
+  planner.submit(state(first->result->plan, 0.1, 0.7));
+  const std::optional<Update> second = planner.wait();
+  REQUIRE((second && second->result && second->result->report.status == Status::solved));
+  CHECK(second->result->report.checked_until_s < second->result->plan.duration());
+  CHECK(check(second->result->plan, plan.scene, plan.robot).ok());
 }
 
 TEST_CASE("a state that waits for the planner's thread is replaced by a later one") {

@@ -56,6 +56,11 @@ struct ReplanOptions {
   /// that catch a push, and up to three other ways to the goal.
   int max_work = 1000;
 
+  /// The checker has accepted the plan under way, to its end. What is kept of it, on the same scene and for the same
+  /// robot, is not looked at again: Report::checked_until_s says how far the checker has looked. Long plans are
+  /// replanned several times faster so.
+  bool previous_accepted = false;
+
   /// Throws InvalidOptions naming all that is out of its range.
   void validate() const;
 };

@@ -77,8 +77,9 @@ class Planner {
   /// The same, after whatever was submitted is computed, or so much time [s] is over.
   std::optional<Update> wait(double timeout_s = std::numeric_limits<double>::infinity());
 
-  /// The controller follows this update from now on: the next plans are made from it. Throws InvalidInput where it has
-  /// no plan, InvalidPlan.
+  /// The controller follows this update from now on: the next plans are made from it. What was solved is not looked at
+  /// again (ReplanOptions::previous_accepted), so that a plan may be changed by its caller only with another status.
+  /// Throws InvalidInput where it has no plan, InvalidPlan.
   void take_over(const Update& update);
 
   /// What holds for computations that begin from now on: the velocity to walk at, none: to the scene's goal; the scene,

@@ -68,6 +68,7 @@ struct Report {
   int parallel_loops = 0;                   ///< loops over neighbours that were shared out over threads
   PlanFrom plan_from = PlanFrom::search;    ///< of a replan: where its plan comes from
   double kept_until_s = 0.0;                ///< of a replan: time until which its plan keeps all limits
+  double checked_until_s = 0.0;             ///< of a replan: how far the checker looked; later is as accepted before
   std::vector<Violation> start_violations;  ///< of a replan: what the measured state violates by itself, worst first
   std::string paper_verdict;  ///< Method::paper: how the published algorithm ended by its own measures; else empty
   double paper_cost = 0.0;    ///< Method::paper: its objective at its last iterate, before contacts are made exact

@@ -148,8 +148,7 @@ void go_to_goal(Rest& rest, const Plan& previous, Now& now, Trials& trials) {
   const bool leads_on = !elsewhere || changes_contacts(rest);
   Rest near = rest;
   if (!elsewhere && !gone)
-    keep_tail(near, previous, *now.scene, *now.robot, now.options->search.model,
-              kHorizonsToGoal * now.options->horizon);
+    keep_tail(near, previous, *now.scene, *now.robot, *now.options, kHorizonsToGoal * now.options->horizon);
   if (leads_on) as_planned_or_with_a_hand(rest, near, now, trials);
   if (Rest there = rest; others && stand_on_others(there, *now.scene, *now.robot)) {
     now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, there);

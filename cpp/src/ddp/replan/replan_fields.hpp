@@ -49,7 +49,10 @@ struct Fields<ddp::ReplanOptions> {
           "may step across it, in front of it or behind it."),
       field("max_work", &Options::max_work, "",
             "Iterations times phases, over all sequences, after which no other one is tried: 1000 take about 30 ms.")
-          .not_negative());
+          .not_negative(),
+      field("previous_accepted", &Options::previous_accepted, "",
+            "The checker has accepted the plan under way, to its end: what is kept of it, on the same scene and for "
+            "the same robot, is not looked at again."));
 };
 
 }  // namespace mcplan::model

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "ddp/constants.hpp"
+#include "mcplan/robot/robot_files.hpp"
+#include "mcplan/scene/scene_files.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -61,6 +63,24 @@ bool as_before(const Rest& rest, const Plan& previous, const Scene& scene, int c
   return true;
 }
 
+/// Phase of a tail from which nothing is other than in the plan that it is of. The headings of soles that stand where
+/// it begins may be, until they have landed elsewhere, and lifts of what is in the air there.
+int unchanged_from(const Tail& tail) {
+  const int count = static_cast<int>(tail.phases.size());
+  int last = 0;
+  for (std::size_t e = 0; e < tail.final_contacts.size(); ++e) {
+    const auto is_free = [&](int k) { return tail.phases[k].contacts[e].surface == kFree; };
+    if (is_free(0)) continue;
+    int k = 0;
+    while (k < count && !is_free(k)) ++k;
+    while (k < count && is_free(k)) ++k;
+    last = std::max(last, k);
+  }
+  for (const Swing& swing : tail.swings)
+    if (swing.first_phase == 0 && swing.height > 0.0) last = std::max(last, swing.end_phase);
+  return std::min(last + 1, count);
+}
+
 /// Soles keep the heading that they have landed with until they lift off, which the knot there has, too.
 void keep_headings(Plan& plan, int first) {
   for (int e = 0; e < plan.end_effector_count(); ++e)
@@ -73,8 +93,9 @@ void keep_headings(Plan& plan, int first) {
 
 }  // namespace
 
-void keep_tail(Rest& rest, const Plan& previous, const Scene& scene, const Robot& robot, Model model, int phases) {
-  if (rest.free_end || !rest.desired.empty() || !of_model(previous, model)) return;
+void keep_tail(Rest& rest, const Plan& previous, const Scene& scene, const Robot& robot, const ReplanOptions& options,
+               int phases) {
+  if (rest.free_end || !rest.desired.empty() || !of_model(previous, options.search.model)) return;
   int cut = std::max(phases, 1);
   while (cut + kTailMin <= rest.size() && !can_be_cut(rest, robot, cut)) ++cut;
   const int count = rest.size() - cut;
@@ -90,6 +111,8 @@ void keep_tail(Rest& rest, const Plan& previous, const Scene& scene, const Robot
     tail->swings.back().first_phase = std::max(swing.first_phase - before, 0);
     tail->swings.back().end_phase -= before;
   }
+  const bool accepted = options.previous_accepted && scene == previous.scene && robot == previous.robot;
+  tail->unseen_from = accepted ? unchanged_from(*tail) : count;
   rest.plan.final_contacts = rest.contacts(cut);
   rest.plan.phases.resize(cut);
   rest.plan.knots.resize(cut + 1);

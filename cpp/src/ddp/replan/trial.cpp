@@ -113,12 +113,11 @@ CheckResult look(const Plan& plan, const Robot& robot, const Now& now, double un
 /// planned with already at few instants is not looked at closely: that is most of what is tried where little helps, and
 /// a close look takes as long as some iterations.
 void look_at_all(Trial& trial, const Now& now, const StopRequest& stop) {
-  constexpr double kAll = std::numeric_limits<double>::infinity();
-  CheckResult few = look(trial.plan, *now.robot, now, kAll, stop, kCoarser);
+  CheckResult few = look(trial.plan, *now.robot, now, trial.accepted_from_s, stop, kCoarser);
   if (!few.complete) return;
   trial.coarse = !few.ok();
   if (!trial.coarse) {
-    CheckResult close = look(trial.plan, trial.plan.robot, now, kAll, stop);
+    CheckResult close = look(trial.plan, trial.plan.robot, now, trial.accepted_from_s, stop);
     if (close.complete) trial.check = std::move(close);
     return;
   }
@@ -196,7 +195,11 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   trial.plan.start_slack_s = now.options->start_slack_s * now.similarity.time;
   put_back(trial.plan, *now.scene, now.surfaces);
   if (rest.free_end) end_there(trial.plan);
-  if (rest.tail) append(trial.plan, *rest.tail);
+  if (rest.tail) {
+    append(trial.plan, *rest.tail);
+    if (rest.tail->unseen_from < static_cast<int>(rest.tail->phases.size()))
+      trial.accepted_from_s = trial.plan.knot_times()[rest.size() + rest.tail->unseen_from];
+  }
   if (now.given_robot) trial.plan.robot = *now.given_robot;
   // In time or not, the next two steps are looked at; a limit leaves the rest of them to the next call.
   if (late) trial.check = look(trial.plan, trial.plan.robot, now, two_steps_s(trial.plan), {});
@@ -221,7 +224,7 @@ void look_closely(Trial& trial, const Now& now) {
   if (!trial.coarse) return;
   const StopRequest late =
       now.deadline->limited() ? StopRequest([&] { return now.deadline->passed(); }) : StopRequest();
-  CheckResult close = look(trial.plan, trial.plan.robot, now, std::numeric_limits<double>::infinity(), late);
+  CheckResult close = look(trial.plan, trial.plan.robot, now, trial.accepted_from_s, late);
   if (close.complete)
     trial.check = std::move(close);
   else  // in time or not, the next two steps are looked at

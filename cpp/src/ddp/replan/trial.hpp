@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,8 +38,13 @@ struct Trial {
   Ending ending = Ending::done;
   int phases = 0;  ///< that are new
   int work = 0;    ///< iterations times phases
-  /// Whether the checker has looked at all of it.
-  bool seen_in_full() const { return check.complete && !(check.checked_until_s < plan.duration()); }
+  double accepted_from_s = std::numeric_limits<double>::infinity();  ///< what comes later was accepted before
+  /// Time [s] until which the checker has to look at it.
+  double to_be_seen_s() const { return std::min(plan.duration(), accepted_from_s); }
+  /// Whether it has.
+  bool seen_in_full() const { return check.complete && !(check.checked_until_s < to_be_seen_s()); }
+  /// Time [s] until which it is known to keep all limits.
+  double kept_until_s() const { return ok() ? plan.duration() : check.kept_until_s; }
   /// The checker has seen all of it and accepts it.
   bool ok() const { return exact && !planned && check.ok() && seen_in_full(); }
 };

@@ -121,7 +121,8 @@ void conclude(Trials& trials, Report& report, PlanResult& out) {
   report.status = status_of(*best);
   report.worst_violation = best->check.worst();
   report.start_violations = best->check.start;
-  report.kept_until_s = best->exact ? best->check.kept_until_s : 0.0;
+  report.kept_until_s = best->exact ? best->kept_until_s() : 0.0;
+  report.checked_until_s = best->check.checked_until_s;
   report.warnings = best->check.warnings;
   report.cost = best->evaluation.cost;
   report.message = message_of(*best, report);

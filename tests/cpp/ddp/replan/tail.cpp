@@ -103,7 +103,8 @@ TEST_CASE("a plan that another model has made is planned anew as a whole") {
   CHECK(kept_knots(result.plan) < 2);
   for (const Knot& knot : result.plan.knots) CHECK(knot.end_effector_yaw.size() == 4);
   Rest rest = rest_of(walk(), kTime_s);
-  keep_tail(rest, walk(), walk().scene, walk().robot, Model::lipm, 3);
+  options.search.model = Model::lipm;
+  keep_tail(rest, walk(), walk().scene, walk().robot, options, 3);
   CHECK(!rest.tail);
 }
 
@@ -143,7 +144,7 @@ TEST_CASE("all of a plan is planned anew with a horizon that is long enough, or 
 
 TEST_CASE("a plan is cut where all feet stand and have stepped, with eight phases at least beyond") {
   Rest rest = rest_of(walk(), kTime_s);
-  keep_tail(rest, walk(), walk().scene, walk().robot, Model::wrench, 3);
+  keep_tail(rest, walk(), walk().scene, walk().robot, ReplanOptions(), 3);
   REQUIRE(rest.tail);
   CHECK(rest.size() >= 3);
   CHECK(rest.plan.knots.size() == rest.plan.phases.size() + 1);
@@ -156,6 +157,49 @@ TEST_CASE("a plan is cut where all feet stand and have stepped, with eight phase
     CHECK(stepped);
   }
   Rest whole = rest_of(walk(), kTime_s);
-  keep_tail(whole, walk(), walk().scene, walk().robot, Model::wrench, whole.size() - 7);
+  keep_tail(whole, walk(), walk().scene, walk().robot, ReplanOptions(), whole.size() - 7);
   CHECK(!whole.tail);
+}
+
+TEST_CASE("of an accepted plan what is kept is not looked at again, and the new plan is the same") {
+  ReplanOptions options;
+  options.horizon = kNew / 2;
+  for (const double push_m_s : {0.0, 0.1}) {
+    CAPTURE(push_m_s);
+    Measured measured = planned_at(kTime_s);
+    measured.state.com_velocity_W.y() += push_m_s;
+    options.previous_accepted = false;
+    const PlanResult in_full = ddp::replan(walk(), kTime_s, measured, options);
+    options.previous_accepted = true;
+    const PlanResult result = ddp::replan(walk(), kTime_s, measured, options);
+    REQUIRE(result.report.status == Status::solved);
+    CHECK(result.plan == in_full.plan);
+    CHECK(result.report.kept_until_s == result.plan.duration());
+    CHECK(in_full.report.checked_until_s == in_full.plan.duration());
+    CHECK(result.report.checked_until_s < result.plan.duration());
+    // Both feet have landed elsewhere by then, so that the headings of soles that are new are looked at.
+    const int first = static_cast<int>(result.plan.knots.size()) - kept_knots(result.plan);
+    for (int e : {0, 1}) {
+      int k = first;
+      while (result.plan.phases[k].contacts[e].surface >= 0) ++k;
+      while (result.plan.phases[k].contacts[e].surface < 0) ++k;
+      CHECK(result.report.checked_until_s > result.plan.knot_times()[k]);
+    }
+  }
+}
+
+TEST_CASE("on another scene or for another robot all of it is looked at, accepted before or not") {
+  ReplanOptions options;
+  options.horizon = kNew / 2;
+  options.previous_accepted = true;
+  Scene scene = walk().scene;
+  scene.surfaces.push_back(scenes::rectangle("beside", 0.0, 3.0, 1.0, 1.2, 1.0));  // nothing that is touched
+  Robot robot = walk().robot;
+  robot.swing_height *= 1.01;
+  for (const PlanResult& result : {ddp::replan(walk(), kTime_s, planned_at(kTime_s), scene, walk().robot, options),
+                                   ddp::replan(walk(), kTime_s, planned_at(kTime_s), walk().scene, robot, options)}) {
+    INFO(result.report.message);
+    CHECK(kept_knots(result.plan) >= 8);
+    CHECK(result.report.checked_until_s == result.plan.duration());
+  }
 }
