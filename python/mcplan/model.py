@@ -53,6 +53,7 @@ from mcplan._core import (
     Surface,
     Swing,
     Tolerances,
+    TrunkPart,
     Violation,
 )
 from mcplan.samples import PlanSamples
@@ -104,5 +105,6 @@ __all__ = [
     "Surface",
     "Swing",
     "Tolerances",
+    "TrunkPart",
     "Violation",
 ]

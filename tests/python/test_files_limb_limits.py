@@ -21,7 +21,8 @@ from mcplan.files.leg_geometry import (  # noqa: E402
     virtual_leg,
 )
 from mcplan.files.limb_limits import draw  # noqa: E402
-from mcplan.files.urdf import contact_frame, limb_of, load_model  # noqa: E402
+from mcplan.files.urdf import load_model  # noqa: E402
+from mcplan.files.urdf_limbs import contact_frame, limb_of  # noqa: E402
 from mcplan.files.urdf_setups import SETUPS  # noqa: E402
 
 POSTURES = 1000

@@ -8,7 +8,7 @@ import pytest
 import mcplan as mp
 from mcplan.files.reach_polytopes import Origin, add_reach_polytopes, inner_polytope, volume
 from mcplan.files.robots import robot_to_dict
-from mcplan.files.urdf import limb_of
+from mcplan.files.urdf_limbs import limb_of
 from mcplan.files.urdf_setups import SETUPS
 
 

@@ -7,7 +7,8 @@ import pytest
 
 import mcplan as mp
 from mcplan.files.strength import largest_force_N, sole_torsion, strengths_in_box
-from mcplan.files.urdf import limb_of, load_model, robot_from_urdf
+from mcplan.files.urdf import load_model, robot_from_urdf
+from mcplan.files.urdf_limbs import limb_of
 from mcplan.files.urdf_setups import SETUPS, End
 from test_files_urdf import ONE_LEG
 

@@ -12,7 +12,8 @@ from mcplan.files.reach import HEADING_STEP, headings_reached, share_reached
 from mcplan.files.reach_cut import below_cut
 from mcplan.files.robots import robot_to_dict
 from mcplan.files.strength import sole_torsion
-from mcplan.files.urdf import contact_frame, limb_of, load_model, robot_from_urdf
+from mcplan.files.urdf import load_model, robot_from_urdf
+from mcplan.files.urdf_limbs import contact_frame, limb_of
 from mcplan.files.urdf_setups import SETUPS, End
 
 pin = pytest.importorskip("pinocchio")

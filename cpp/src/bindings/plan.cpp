@@ -180,9 +180,10 @@ void bind_report(py::module_& m) {
   report.def_readonly("plan_from", &Report::plan_from, "Of a replan: where its plan comes from.");
   report.def_readonly("kept_until_s", &Report::kept_until_s,
                       "Of a replan: time [s] until which its plan keeps all limits.");
-  report.def_readonly("checked_until_s", &Report::checked_until_s,
-                      "Of a replan: time [s] until which the checker looked at its plan. What comes later is kept of the "
-                      "plan before as it was accepted (previous_accepted).");
+  report.def_readonly(
+      "checked_until_s", &Report::checked_until_s,
+      "Of a replan: time [s] until which the checker looked at its plan. What comes later is kept of the "
+      "plan before as it was accepted (previous_accepted).");
   def_items(report, "start_violations", &Report::start_violations,
             "Tuple of Violation: of a replan, what the measured state violates by itself, worst first.");
   report.def_readonly("seed", &Report::seed);

@@ -58,6 +58,7 @@ void bind_robot(py::module_& m) {
   py::class_<LimbLimits> limb = bind_fields<LimbLimits>(m);
   limb.def_property_readonly("given", &LimbLimits::given, "Whether limits are given.");
   bind_fields<EndEffector>(m);
+  bind_fields<TrunkPart>(m);
   py::class_<Robot> c = bind_fields<Robot>(m);
   c.def("end_effector_index", &Robot::end_effector_index, py::arg("end_effector_name"), "Index, or -1.");
   c.def("validate", &Robot::validate, "Raise InvalidRobot naming all that is out of its range.");

@@ -6,6 +6,7 @@
 
 #include "ddp/constants.hpp"
 #include "ddp/costs/prism.hpp"
+#include "ddp/trunk_room.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "plan/solid_box.hpp"
 
@@ -13,6 +14,14 @@ namespace mcplan::ddp {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+
+namespace {
+
+/// By so much, in heights of the CoM, a robot ducks below what its trunk would touch. Chosen: the
+/// G1 ducked by 0.11 m falls when it is tracked.
+constexpr double kDuck = 0.12;
+
+}  // namespace
 
 Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& from, const ResolvedStance& to,
                double sole_inside, double rise_ratio) {
@@ -35,6 +44,13 @@ Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& fro
     nominal_.push_back(turns ? Vector2d::Zero() : Vector2d(place.head<2>()));
   }
   rise_ *= rise_ratio * (1.0 + 1e-9);  // steps just as high are no higher by rounding
+  layers_.push_back({rise_, kTrunkHeight * height_, half_width_});
+  for (const TrunkPart& part : robot.trunk) {
+    const double room = room_about(part, robot);
+    const auto [low, high] = std::minmax(part.from_B.z(), part.to_B.z());
+    layers_.push_back({std::max(height_ + low - part.radius, rise_), height_ + high + part.radius - kDuck * height_,
+                       std::max(std::abs(part.from_B.y()), std::abs(part.to_B.y())) + room});
+  }
   for (int i = 0; i < static_cast<int>(scene.surfaces.size()); ++i) {
     const Surface& surface = scene.surfaces[i];
     const Solid solid{Polygon(surface.vertices_W), surface.thickness};
@@ -72,9 +88,9 @@ Ground::Footing Ground::footing(const Patch& patch, const Vector2d& at) const {
   return {(nearest.head<2>() - at).norm(), nearest.z()};
 }
 
-/// The first solid that is nearer than that to the CoM's axis, from the height of a step to above the CoM.
-int Ground::solid_at(const Vector2d& at, double height, double within) const {
-  const double low = height + rise_, high = height + kTrunkHeight * height_;
+/// The first solid in a layer above ground of this height.
+int Ground::solid_at(const Vector2d& at, double height, const Layer& layer) const {
+  const double low = height + layer.low, high = height + layer.high, within = layer.within;
   const auto found = std::find_if(solids_.begin(), solids_.end(), [&](const Standing& solid) {
     const Eigen::AlignedBox3d& box = solid.box;
     if (!(box.max().z() > low) || !(box.min().z() < high)) return false;
@@ -116,9 +132,11 @@ std::vector<Place> Ground::places(const Vector2d& at) const {
       place.looseness += away / gap() / static_cast<double>(nominal_.size());
     }
     if (!stands) continue;
-    // The trunk is a cylinder as wide as the feet stand.
-    place.solid = solid_at(at, place.height, half_width_);
-    place.tight = place.solid >= 0 || solid_at(at, place.height, radius_) >= 0;
+    // The trunk is a cylinder as wide as the feet stand, and what the robot has above it.
+    for (const Layer& layer : layers_)
+      if (place.solid < 0) place.solid = solid_at(at, place.height, layer);
+    const Layer turning{layers_.front().low, layers_.front().high, radius_};
+    place.tight = place.solid >= 0 || solid_at(at, place.height, turning) >= 0;
     out.push_back(place);
   }
   std::sort(out.begin(), out.end(), [](const Place& a, const Place& b) { return a.height > b.height; });

@@ -48,13 +48,18 @@ class Ground {
     double away = 0.0, height = 0.0;
   };
   Footing footing(const Patch& patch, const Eigen::Vector2d& at) const;
-  int solid_at(const Eigen::Vector2d& at, double height, double within) const;
+  /// Where the trunk would be: heights above the ground, and so near to the CoM's axis.
+  struct Layer {
+    double low, high, within;
+  };
+  int solid_at(const Eigen::Vector2d& at, double height, const Layer& layer) const;
 
   std::vector<int> feet_;                   // of the robot
   std::vector<Eigen::Vector2d> nominal_;    // from the CoM in the heading of the walk; where it changes, the CoM's
   double stride_ = 0.0, rise_ = 0.0;        // the least of all feet
   double inside_ = 0.0;                     // how far soles stay inside of their surface
   double half_width_ = 0.0, height_ = 0.0;  // of the trunk and the feet beside it
+  std::vector<Layer> layers_;               // the first up to above the CoM, then those of the parts of the trunk
   double radius_ = 0.0;                     // about the CoM, of all of the feet
   std::vector<Patch> patches_;              // surfaces that hold the feet
   struct Standing {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "ddp/constants.hpp"
@@ -105,9 +106,12 @@ class Problem {
   double swing_room = kPathRoom;       ///< that soles keep from solids where swings are held out of them
   double reach_room = 0.0;             ///< contacts keep inside of their reach between the knots
   bool watch_swings = false;           ///< swings are held out of solids from the first attempt on
-  std::vector<Eigen::Vector3d> idle_hands;  ///< nominal places of hands that may touch nothing
-  std::vector<int> standing_solids;         ///< surfaces whose solids come near the reference of the CoM
-  std::vector<EndLimits> limits;            ///< by active end-effector
+  std::vector<Eigen::Vector3d> idle_hands;       ///< nominal places of hands that may touch nothing
+  std::vector<int> standing_solids;              ///< surfaces whose solids come near the reference of the CoM
+  std::vector<int> trunk_solids;                 ///< and those that come near the trunk there, of a robot that has one
+  std::vector<Eigen::AlignedBox3d> solid_boxes;  ///< about the solids, where there are such
+  std::vector<TrunkPart> trunk;                  ///< in units of length, with the room that it keeps for a radius
+  std::vector<EndLimits> limits;                 ///< by active end-effector
   /// Active end-effectors with limb limits, and the sum of their nominal positions.
   struct Jointed {
     std::vector<int> ends;
@@ -218,6 +222,7 @@ class Problem {
   void follow_ground();
   std::vector<double> balanced_loads(const ContactState& contacts, const Eigen::VectorXd& x) const;
   void find_standing_solids();
+  void find_trunk_solids();
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };
 

@@ -5,6 +5,7 @@
 
 #include "ddp/constants.hpp"
 #include "ddp/problem.hpp"
+#include "ddp/trunk_room.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "plan/solid_box.hpp"
 #include "robot/ground_plane.hpp"
@@ -111,6 +112,7 @@ void Problem::make_reference(const VectorXd& goal) {
   }
   follow_ground();
   find_standing_solids();
+  find_trunk_solids();
 }
 
 void Problem::set_pace(double duration) {
@@ -185,6 +187,41 @@ void Problem::find_standing_solids() {
       return box.squaredExteriorDistance(piece) < kStanding * kStanding;
     });
     if (near) standing_solids.push_back(static_cast<int>(i));
+  }
+}
+
+/// How far from its reference the robot's own trunk may be, in heights of the CoM. Chosen.
+constexpr double kTrunkMove = 0.3;
+
+/// Likewise about the robot's own trunk, as far as its parts are away, whichever way it turns about the vertical.
+void Problem::find_trunk_solids() {
+  trunk_solids.clear();
+  solid_boxes.clear();
+  trunk.clear();
+  if (options.method == Method::paper || robot.trunk.empty()) return;
+  double aside = 0.0, low = 0.0, high = 0.0;
+  for (const TrunkPart& part : robot.trunk) {
+    const TrunkPart& own = trunk.emplace_back(
+        TrunkPart{part.from_B / units.length, part.to_B / units.length, room_about(part, robot) / units.length});
+    const double room = own.radius + kTrunkMove;
+    for (const Vector3d& end : {own.from_B, own.to_B}) {
+      aside = std::max(aside, end.head<2>().norm() + room);
+      low = std::min(low, end.z() - room);
+      high = std::max(high, end.z() + room);
+    }
+  }
+  std::vector<Eigen::AlignedBox3d> pieces;
+  for (int k = 0; k < steps; ++k) {
+    Eigen::AlignedBox3d& piece = pieces.emplace_back();
+    for (int j : {k, k + 1}) {
+      const Vector3d com = reference.x[j].segment<3>(layout.com());
+      piece.extend(com + Vector3d(-aside, -aside, low)).extend(com + Vector3d(aside, aside, high));
+    }
+  }
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const Eigen::AlignedBox3d& box = solid_boxes.emplace_back(box_of(Solid{polygons[i], thickness[i]}));
+    if (std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) { return piece.intersects(box); }))
+      trunk_solids.push_back(static_cast<int>(i));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "check_internal.hpp"
+#include "plan/convex_min.hpp"
 #include "solid_box.hpp"
 
 namespace mcplan::checks {
@@ -78,6 +79,8 @@ void Limbs::look_around(const Problem& problem, const Vector3d& com_W) {
   double reach = 0.0;
   for (const EndEffector& end : problem.robot.end_effectors)
     reach = std::max(reach, end.reach_min_B.cwiseAbs().cwiseMax(end.reach_max_B.cwiseAbs()).norm());
+  for (const TrunkPart& part : problem.robot.trunk)
+    reach = std::max(reach, part.radius + std::max(part.from_B.norm(), part.to_B.norm()));
   reach += kMove * problem.similarity.length;
   looked_at_W_ = com_W;
   near_.clear();
@@ -110,7 +113,7 @@ void Limbs::look(const Problem& problem, const Sample& sample, Findings& finding
   }
 }
 
-/// A ball about the CoM, thinner than any trunk (kTrunkBall CoM heights), in no solid.
+/// A ball about the CoM, thinner than any trunk (kTrunkBall CoM heights), in no solid, nor the robot's own trunk.
 void Limbs::check_trunk(const Problem& problem, const Sample& sample, Findings& findings) const {
   const double radius = kTrunkBall * problem.robot.com_height;
   const Vector3d& com = sample.replay.com_W;
@@ -118,6 +121,18 @@ void Limbs::check_trunk(const Problem& problem, const Sample& sample, Findings& 
     if (!(boxes_[surface].squaredExteriorDistance(com) < radius * radius)) continue;
     findings.offer(StateLimit::trunk, radius - distance_outside(problem.solids[surface], com),
                    {sample.phase, -1, sample.time_s});
+  }
+  for (const TrunkPart& part : problem.robot.trunk) {
+    const Vector3d from = com + sample.r_WB * part.from_B, along = sample.r_WB * (part.to_B - part.from_B);
+    Eigen::AlignedBox3d around(from);
+    around.extend(Vector3d(from + along));
+    for (int surface : near_) {
+      if (!(boxes_[surface].squaredExteriorDistance(around) < part.radius * part.radius)) continue;
+      // The distance from a convex body is convex along a line.
+      const auto away = [&](double s) { return distance_outside(problem.solids[surface], from + s * along); };
+      const double nearest = std::min({away(0.0), away(1.0), away(convex_min(away))});
+      findings.offer(StateLimit::trunk, part.radius - nearest, {sample.phase, -1, sample.time_s});
+    }
   }
 }
 

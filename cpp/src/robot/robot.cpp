@@ -99,6 +99,12 @@ void require_limb(const EndEffector& e, const std::string& field) {
                        text(length) + " m from hip to ankle");
 }
 
+void require_trunk(const Robot& robot, const TrunkPart& part, const std::string& field) {
+  const double lowest = robot.com_height + std::min(part.from_B.z(), part.to_B.z()) - part.radius;
+  if (!(lowest > 0.0))
+    throw InvalidRobot(field, "must lie above the ground in the nominal stance", text(lowest) + " m above it");
+}
+
 }  // namespace
 
 int Robot::end_effector_index(const std::string& end_effector_name) const {
@@ -116,6 +122,10 @@ void Robot::validate() const {
 
 void model::relations(const Robot& robot, Findings& found) {
   found.check({"phase_duration"}, [&] { require_durations(robot.phase_duration); });
+  for (std::size_t i = 0; i < robot.trunk.size(); ++i) {
+    const std::string field = "trunk[" + std::to_string(i) + "]";
+    found.check({field, "com_height"}, [&] { require_trunk(robot, robot.trunk[i], field); });
+  }
   std::set<std::string> names;
   const auto field_of = [](std::size_t l) { return "end_effectors[" + std::to_string(l) + "]"; };
   for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {

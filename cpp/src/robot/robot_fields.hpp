@@ -75,6 +75,21 @@ struct Fields<LimbLimits> {
 };
 
 template <>
+struct Fields<TrunkPart> {
+  static constexpr const char* name = "TrunkPart";
+  static constexpr const char* meaning =
+      "A capsule that turns with the base, about as large as what it stands for: all points within a radius of a line.";
+  static constexpr auto all =
+      std::make_tuple(field("from_B", &TrunkPart::from_B, "m",
+                            "Lower, rear or right end of the line, relative to the CoM, axes of the "
+                            "base.")
+                          .in_files("from")
+                          .required(),
+                      field("to_B", &TrunkPart::to_B, "m", "The other end, likewise.").in_files("to").required(),
+                      field("radius", &TrunkPart::radius, "m", "Distance from the line.").required().positive());
+};
+
+template <>
 struct Fields<EndEffector> {
   static constexpr const char* name = "EndEffector";
   static constexpr const char* meaning =
@@ -151,6 +166,11 @@ struct Fields<Robot> {
             "Whether a controller follows the plans with limbs whose momentum they do not know of: contact sequences "
             "keep "
             "the base upright and the centre of pressure near the middle of the sole."),
+      field(
+          "trunk", &Robot::trunk, "",
+          "What keeps out of solids beside the ball about the CoM: spine and head, shoulders. Assign a list to add or "
+          "remove.")
+          .entries(0, 8),
       field("urdf", &Robot::urdf, "", "Path, or 'example-robot-data:NAME'; empty: none."),
       field("end_effectors", &Robot::end_effectors, "", "End-effectors; assign a list to add or remove.")
           .required()

@@ -28,6 +28,12 @@ void suspect_lengths(const Robot& robot, std::vector<Suspicion>& out) {
                      digits(longest, "%g") + " m beside a com_height of " + digits(robot.com_height, "%g") + " m"});
   };
   look("swing_height", std::abs(robot.swing_height));
+  for (std::size_t i = 0; i < robot.trunk.size(); ++i) {
+    const std::string field = "trunk[" + std::to_string(i) + "].";
+    look(field + "from", robot.trunk[i].from_B.cwiseAbs().maxCoeff());
+    look(field + "to", robot.trunk[i].to_B.cwiseAbs().maxCoeff());
+    look(field + "radius", robot.trunk[i].radius);
+  }
   for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
     const EndEffector& end = robot.end_effectors[l];
     const std::string field = "end_effectors[" + std::to_string(l) + "].";

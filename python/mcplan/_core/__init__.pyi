@@ -71,6 +71,7 @@ __all__: list[str] = [
     "Surface",
     "Swing",
     "Tolerances",
+    "TrunkPart",
     "Violation",
     "WholeBodyPlan",
     "WholeBodyState",
@@ -806,6 +807,47 @@ class EndEffector:
     @yaw_range.setter
     def yaw_range(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
 
+class TrunkPart:
+    """
+    A capsule that turns with the base, about as large as what it stands for: all points within a radius of a line.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> TrunkPart: ...
+    def __deepcopy__(self, memo: dict) -> TrunkPart: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        from_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        to_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        radius: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def from_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] Lower, rear or right end of the line, relative to the CoM, axes of the base.
+        """
+    @from_B.setter
+    def from_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def radius(self) -> float:
+        """
+        [m] Distance from the line.
+        """
+    @radius.setter
+    def radius(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def to_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] The other end, likewise.
+        """
+    @to_B.setter
+    def to_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+
 class Robot:
     """
     What a planner needs to know of a robot: lumped inertia and where its limbs reach. SI units.
@@ -830,6 +872,7 @@ class Robot:
         sole_support: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         pressure_ratio: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         tracked: bool = False,
+        trunk: collections.abc.Sequence[TrunkPart] = [],
         urdf: str = "",
         end_effectors: collections.abc.Sequence[EndEffector] = [],
         posture: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {},
@@ -942,6 +985,13 @@ class Robot:
         """
     @tracked.setter
     def tracked(self, arg0: bool) -> None: ...
+    @property
+    def trunk(self) -> tuple:
+        """
+        Tuple: What keeps out of solids beside the ball about the CoM: spine and head, shoulders. Assign a list to add or remove.
+        """
+    @trunk.setter
+    def trunk(self, arg1: collections.abc.Sequence[TrunkPart]) -> None: ...
     @property
     def urdf(self) -> str:
         """

@@ -29,7 +29,8 @@ from mcplan.errors import InvalidInput
 from mcplan.extras import require
 from mcplan.files.reach import Limb
 from mcplan.files.reach_cut import uncut_top
-from mcplan.files.urdf import ends_of, limb_of, load_model
+from mcplan.files.urdf import ends_of, load_model
+from mcplan.files.urdf_limbs import limb_of
 from mcplan.files.urdf_setups import End
 
 if TYPE_CHECKING:

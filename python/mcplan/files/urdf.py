@@ -25,6 +25,8 @@ from mcplan.files.limb_limits import add_limb_limits
 from mcplan.files.reach import HEADING_MAX, Limb, explore, headings_reached, largest_box
 from mcplan.files.reach_cut import LIFT, Cut, cut_of
 from mcplan.files.strength import POINTS, rounded_down, sole_torsion, strengths_in_box
+from mcplan.files.trunk import trunk_of
+from mcplan.files.urdf_limbs import contact_frame, limb_of, own_joints
 from mcplan.files.urdf_packages import packaged_robot
 from mcplan.files.urdf_reading import build_model, read_urdf, read_xml
 from mcplan.files.urdf_setups import HEADER, SETUPS, End, Setup, search_box
@@ -49,8 +51,6 @@ _SOLED: dict[str, Any] = {
 #: Shortest and longest phase of robots on four point feet and more, in sqrt(com_height / gravity).
 STEP_PHASES = (0.93, 2.3)
 _MIN_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
-_CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
-_FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
 
 
 @dataclass(frozen=True)
@@ -125,6 +125,7 @@ def robot_from_urdf(
         max_com_speed=round(FAST_RUN * float(np.sqrt(GRAVITY * com_height)), 1),
         swing_height=setup.swing_height if setup else SWING_HEIGHT_M,
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
+        trunk=trunk_of(model, nominal, ends, {end.name: own_joints(model, end, ends) for end in ends}, source),
         urdf=urdf,
         posture=_posture_of(model, nominal),
         **_as_tracked(ends, com_height),
@@ -208,56 +209,6 @@ def ends_of(source: str, ends: tuple[End, ...] = ()) -> tuple[End, ...]:
     if not ends and source not in SETUPS:
         raise InvalidInput("ends", f"must be given for a robot other than {', '.join(SETUPS)}", shown(source))
     return ends or SETUPS[source].ends
-
-
-def contact_frame(model: Any, end: End) -> int:
-    """Index of the frame at an end-effector's contact point, with the axes of its link; added if it is not the link's."""
-    import pinocchio as pin
-
-    link = model.getBodyId(end.frame)  # joints, which have frames too, may bear the same name
-    if not any(end.frame_offset):
-        return link
-    name = f"mcplan/{end.name}"
-    if not model.existFrame(name):
-        joint, placement = model.frames[link].parentJoint, model.frames[link].placement
-        placement = placement * pin.SE3(np.eye(3), np.asarray(end.frame_offset, float))
-        model.addFrame(pin.Frame(name, joint, link, placement, pin.FrameType.OP_FRAME), False)
-    return model.getFrameId(name)
-
-
-def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...], source: str = "") -> Limb:
-    """The limb that carries an end-effector: the joints on the way to it that carry no other one.
-
-    Raises:
-        InvalidInput: There is no such joint, or one has more than an angle: the message names the source, the URDF.
-    """
-    import pinocchio as pin
-
-    def carriers(frame: str) -> list[int]:
-        return [j for j in model.supports[model.frames[model.getBodyId(frame)].parentJoint] if j > 1]
-
-    shared = {j for other in ends if other.name != end.name for j in carriers(other.frame)}
-    own = [j for j in carriers(end.frame) if j not in shared]
-    if not own:
-        raise InvalidInput(f"ends.{end.name}", "must be moved by a joint that moves no other one", shown(end.frame))
-    for joint in own:
-        if model.nqs[joint] != 1:
-            raise InvalidInput(f"joint {model.names[joint]}", "must have one angle and limits", "", source)
-    locked = [j for j in range(2, model.njoints) if j not in own]  # joint 1 is the free base: its mass counts
-    reduced = pin.buildReducedModel(model, locked, posture)
-    nominal = np.array([posture[model.idx_qs[j]] for j in own])
-    lower, upper = reduced.lowerPositionLimit[7:].copy(), reduced.upperPositionLimit[7:].copy()
-    free = upper - lower > _CONTINUOUS
-    lower[free], upper[free] = (nominal - _FREE_RANGE)[free], (nominal + _FREE_RANGE)[free]
-    return Limb(
-        reduced,
-        posture[:7].copy(),
-        contact_frame(reduced, end),
-        nominal,
-        lower,
-        upper,
-        flat=any(end.half_size),
-    )
 
 
 def load_model(

@@ -21,7 +21,9 @@ HEADER = (
     " nominal position and half way to every corner of the box, at most {heading}. A hand's nominal position is moved"
     " {inset} m into its box. max_moment of soles: 2/3 x {friction} x half the weight x the shorter half side, the "
     "torsion of a disc by half the friction of {full}. phase_duration, sole_support and pressure_ratio: what legs can"
-    " follow, whole soles on their surface, and room under them for what swinging limbs ask of a controller."
+    " follow, whole soles on their surface, and room under them for what swinging limbs ask of a controller. trunk: "
+    "capsules along the visual shapes of what turns with the base, as thick as three quarters of them the thinner way, "
+    "and from shoulder to shoulder."
 )
 
 

@@ -16,7 +16,7 @@ from mcplan.errors import InvalidArgument, InvalidInput, InvalidPlan
 from mcplan.kinematics.rotations import from_rpy
 from mcplan.options import fill
 
-from .planner import MeasuredState, Planner, Update
+from .planner import MeasuredState, Planner, UnderWay, Update
 
 if TYPE_CHECKING:
     from mcplan._core import Robot, Scene
@@ -133,9 +133,8 @@ class HorizonPlanner(Planner):
         super().take_over(update)
         self.first_step = self._first_steps.pop(update.ticket, self.first_step)
 
-    def _computed(
-        self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float, named: Mapping[str, Any]
-    ) -> Update:
+    def _computed(self, ticket: int, state: MeasuredState, under_way: UnderWay, named: Mapping[str, Any]) -> Update:
+        plan, begins_s, _ = under_way
         began = time.perf_counter()
         scene, robot, first = self.scene or self.sequence.scene, self.sequence.robot, self.first_step
         try:

@@ -80,6 +80,8 @@ class Update:
     ticket: int
 
 
+#: The plan under way, when it began [s], and whether the checker has accepted it to its end.
+UnderWay = tuple[Plan, float, bool]
 #: A state, and options for this time only.
 Request = tuple[MeasuredState, Mapping[str, Any]]
 
@@ -132,7 +134,7 @@ class Planner:
             raise InvalidOptions("height_margin_m", "must be 0 at least", shown(height_margin_m))
         command_of(command)
         replan_options(named)
-        self._under_way = plan, float(begins_s), False  # one object, as all change at once beside the thread
+        self._under_way: UnderWay = plan, float(begins_s), False  # one object, as all change at once beside the thread
         self.command, self.period_s, self._height_margin_m = command, period_s, float(height_margin_m)
         self.scene: Scene | None = None
         self.robots: list[Robot] = [plan.robot]
@@ -216,12 +218,10 @@ class Planner:
 
     def _update(self, ticket: int, request: Request) -> Update:
         state, named = request
-        plan, begins_s, accepted = self._under_way
-        return self._computed(ticket, state, plan, begins_s, {"previous_accepted": accepted, **self._named, **named})
+        return self._computed(ticket, state, self._under_way, {**self._named, **named})
 
-    def _computed(
-        self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float, named: Mapping[str, Any]
-    ) -> Update:
+    def _computed(self, ticket: int, state: MeasuredState, under_way: UnderWay, named: Mapping[str, Any]) -> Update:
+        plan, begins_s, accepted = under_way
         began = time.perf_counter()
         found: PlanResult | None = None
         try:
@@ -234,7 +234,7 @@ class Planner:
             knot = with_planned_height(state.knot, plan, t_now, self._height_margin_m)
             for i, robot in enumerate(self.robots):
                 # While it is pushed, every new plan takes the push for over. Robots after the first are for emergencies.
-                told = {"recovery_first": True, "crossing": i > 0, **named}
+                told = {"recovery_first": True, "crossing": i > 0, "previous_accepted": accepted, **named}
                 result = replan(plan, t, knot, state.contacts, self.command, self.scene, robot, told)
                 usable = follows(result.report, self.period_s)
                 if found is None or (usable and not follows(found.report, self.period_s)):

@@ -1,4 +1,4 @@
-"""Whether a robot can follow a plan, told before any simulation: reach, torques, velocities, swing clearance."""
+"""Whether a robot can follow a plan, told before any simulation: reach, torques, velocities, clearance of all links."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from mcplan.kinematics.smooth_postures import nearest, smoothed
 
 from .arm_strength import largest_force_N
 from .findings import Feasibility, Finding
+from .link_clearance import link_findings
 from .posture_torques import PostureTorques, posture_torques
 from .sole_clearance import clearance_findings
 
@@ -89,6 +90,7 @@ def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> F
         *_velocities(case),
         *_hands(case),
         *clearance_findings(plan.scene, urdf_model, samples, postures, _final_contacts(plan, urdf_model)),
+        *link_findings(plan.scene, urdf_model, samples, postures),
         _mass(case, mass),
     ]
     return Feasibility(robot.name, tuple(findings))

@@ -12,12 +12,12 @@ class Finding:
     """The place where a plan asks most of one limit of the robot, whether that is beyond it or not.
 
     Attributes:
-        name: The limit: "reach", "sole", "balance", "torque", "joint_velocity", "hand_force", "clearance", "foothold"
-            or "mass".
+        name: The limit: "reach", "sole", "balance", "torque", "joint_velocity", "hand_force", "clearance", "foothold",
+            "link" or "mass".
         value: What is asked for, in `unit`.
         limit: The largest value that is accepted.
         unit: Unit of value and limit.
-        where: End-effector, joint or "com"; empty: the whole robot.
+        where: End-effector, joint, link or "com"; empty: the whole robot.
         time_s: When.
         note: What else is worth knowing, e.g. which joints are at their limits.
     """

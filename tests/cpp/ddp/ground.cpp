@@ -66,3 +66,26 @@ TEST_CASE("stairs have two places near a riser, and solids that stand are where 
   CHECK_FALSE(blocked(0.45, 0.0));  // lower than a step
   CHECK_FALSE(blocked(0.05, 0.0));  // above the head
 }
+
+TEST_CASE("what a robot has above its CoM passes no place that is lower or narrower, but for what it ducks") {
+  Scene scene = scenes::flat();
+  Robot robot = scenes::humanoid44();  // CoM at 0.7 m: what is above 0.91 m is out of the way of its trunk
+  robot.trunk = {{{0, 0, 0}, {0, 0, 0.5}, 0.06}, {{0, -0.3, 0.4}, {0, 0.3, 0.4}, 0.05}};
+  const auto blocked = [&](double bottom, double y) {
+    scene = scenes::flat();
+    mcplan::Surface beam = scenes::rectangle("beam", 0.5, 0.6, 0.0, 1.0, 2.0, "hand");
+    beam.thickness = 2.0 - bottom;
+    scene.surfaces.push_back(beam);
+    const auto places = ground_of(scene, robot).places({0.55, y});
+    REQUIRE(places.size() == 1);
+    return places[0].solid >= 0;
+  };
+  CHECK(blocked(1.17, 0.2));  // ducked by 0.084 m the head is 1.176 m above the ground
+  CHECK_FALSE(blocked(1.18, 0.2));
+  CHECK(blocked(1.0, -0.3));  // a shoulder, 0.35 m and 0.035 m wide
+  CHECK_FALSE(blocked(1.0, -0.4));
+  CHECK_FALSE(blocked(1.08, -0.3));  // above the shoulders
+  CHECK(blocked(1.08, -0.05));
+  robot.trunk.clear();
+  CHECK_FALSE(blocked(1.0, 0.2));
+}

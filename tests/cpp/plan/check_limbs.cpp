@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "mcplan/base/rotation.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "plan/fixtures.hpp"
 
@@ -130,6 +131,40 @@ TEST_CASE("a CoM that comes nearer to a solid than a tenth of its height is a vi
   CHECK(trunk_at(kHeight + 0.05).value == doctest::Approx(0.02));
   CHECK(trunk_at(kHeight + 0.05).value > trunk_at(kHeight + 0.05).tolerance);
   CHECK(trunk_at(0.3).value == doctest::Approx(0.07));  // the CoM is in it
+}
+
+TEST_CASE("a part of the trunk nearer to a solid than its radius is a violation, by as much, however the base turns") {
+  Plan plan = walk();
+  const auto trunk_at = [&](double bottom, const Vector3d& from_B, const Vector3d& to_B) {
+    plan.scene = hall();
+    mcplan::Surface beam = rectangle("beam", -1.0, 2.0, -0.2, 0.2, 2.0);
+    beam.thickness = 2.0 - bottom;
+    beam.end_effectors = {"hand"};
+    plan.scene.surfaces.push_back(beam);
+    plan.robot.trunk = {{Vector3d(0, 0, 0.1), Vector3d(0, 0, 0.2), 0.05}, {from_B, to_B, 0.04}};
+    return found(mcplan::check(plan, plan.scene, plan.robot), "trunk");
+  };
+  const Vector3d low(0, 0, -0.1), head(0, 0, 0.5);
+  double highest = 0.0;
+  for (double t = 0.0; t <= plan.duration(); t += 0.01) highest = std::max(highest, plan.at(t).com_W.z());
+  CHECK(trunk_at(highest + 0.55, low, head).value == 0.0);
+  const mcplan::Violation touched = trunk_at(highest + 0.52, low, head);
+  CHECK(touched.value == doctest::Approx(0.02).epsilon(0.02));
+  CHECK(touched.value > touched.tolerance);
+  CHECK(trunk_at(highest + 0.52, head, low).value == touched.value);
+  // In the middle of the line, and a line that lies in the solid.
+  CHECK(trunk_at(highest + 0.52, Vector3d(0, -3, 0.5), Vector3d(0, 3, 0.5)).value ==
+        doctest::Approx(touched.value).epsilon(0.02));
+  CHECK(trunk_at(highest + 0.3, low, head).value == doctest::Approx(0.04));
+  // Ahead of the base, by its angles: of a line through points of the plan, the deepest one.
+  const Vector3d ahead(0.4, 0.0, 0.4);
+  double nearest = 0.0;
+  for (double t = 0.0; t <= plan.duration(); t += 0.001) {
+    const mcplan::PlanState at = plan.at(t);
+    const double z = (at.com_W + mcplan::rotation_from_rpy(at.base_rpy) * ahead).z();
+    nearest = std::max(nearest, z + 0.04 - (highest + 0.42));
+  }
+  CHECK(trunk_at(highest + 0.42, ahead, ahead).value == doctest::Approx(nearest).epsilon(0.02));
 }
 
 TEST_CASE("a straight limb that passes through a solid is a warning with its place and time") {

@@ -120,6 +120,18 @@ TEST_CASE("end-effectors out of range are named") {
             "end_effectors[1].max_moment[" + std::to_string(axis) + "]");
 }
 
+TEST_CASE("parts of a trunk have a size and lie above the ground") {
+  const auto with = [&](const mcplan::TrunkPart& part) {
+    return field([&](Robot& r) { r.trunk = {{Vector3d(0, 0, 0), Vector3d(0, 0, 0.4), 0.1}, part}; });
+  };
+  CHECK(with({Vector3d(0, 0, -0.3), Vector3d(0, 0, 0.4), 0.1}) == "accepted");
+  CHECK(with({Vector3d(0, 0, 0.4), Vector3d(0, 0, 0.4), 0.1}) == "accepted");  // a ball
+  CHECK(with({Vector3d(0, 0, -0.3), Vector3d(0, 0, 0.4), 0.0}) == "trunk[1].radius");
+  CHECK(with({Vector3d(0, 0, -0.3), Vector3d(0, 0, 0.4), -0.1}) == "trunk[1].radius");
+  CHECK(with({Vector3d(0, 0, -0.3), Vector3d(0, 0, std::nan("")), 0.1}) == "trunk[1].to[2]");
+  CHECK(with({Vector3d(0, 0, 0.4), Vector3d(0, 0, -0.4), 0.1}) == "trunk[1]");
+}
+
 TEST_CASE("a sole may be turned both ways, or any way") {
   const auto turned = [](double right, double left) {
     return field([&](Robot& r) { r.end_effectors[1].yaw_range = {right, left}; });

@@ -74,7 +74,8 @@ struct Tolerances {
 ///     limb               of the straight line from the CoM to an end-effector in a solid that this does not touch: how
 ///                        far it would have to be moved to be outside, beyond the 0.1 m by which knees and elbows bend,
 ///                        or its length inside beyond 0.15 m, whichever is more (of a robot of human size)
-///     trunk              depth of a ball about the CoM, of a tenth of its height, in a solid
+///     trunk              depth of a ball about the CoM, of a tenth of its height, in a solid, and of the robot's
+///                        trunk, where it has one: how much nearer its line is than its radius
 ///     sequence_switch    contacts made or broken in one step
 ///     sequence_rule      the scene's contact rules, in every phase and at the end
 ///     start, goal        CoM, heading and contacts of the scene's stances, at rest (no start where the plan begins

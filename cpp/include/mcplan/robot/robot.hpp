@@ -69,6 +69,13 @@ struct EndEffector {
   LimbLimits limb;                                ///< of the leg that carries it, where given
 };
 
+/// A capsule that turns with the base, about as large as what it stands for: all points within `radius` of a line.
+struct TrunkPart {
+  Eigen::Vector3d from_B = Eigen::Vector3d::Zero();  ///< [m] ends of the line relative to the CoM, axes of the base
+  Eigen::Vector3d to_B = Eigen::Vector3d::Zero();
+  double radius = 0.0;  ///< [m]
+};
+
 /// What a planner needs to know of a robot: lumped inertia and where its limbs reach.
 struct Robot {
   std::string name;
@@ -80,9 +87,10 @@ struct Robot {
   double swing_height = 0.10;                  ///< [m] clearance of a swinging end-effector; at its default by_size()
   Eigen::Vector2d phase_duration{0.15, 0.50};  ///< [s] shortest and longest phase of a contact sequence; likewise
   double sole_support = 0.0;                   ///< ratio of a sole that a contact sequence keeps on its surface
-  double pressure_ratio = 1.0;  ///< ratio of a sole's half size within which a plan keeps the centre of pressure
-  bool tracked = false;         ///< a controller follows the plans with limbs whose momentum they do not know of:
-                                ///< contact sequences keep the base upright and the centre of pressure near the middle
+  double pressure_ratio = 1.0;   ///< ratio of a sole's half size within which a plan keeps the centre of pressure
+  bool tracked = false;          ///< a controller follows the plans with limbs whose momentum they do not know of:
+                                 ///< contact sequences keep the base upright and the centre of pressure near the middle
+  std::vector<TrunkPart> trunk;  ///< what keeps out of solids beside the ball about the CoM: spine and head, shoulders
   std::vector<EndEffector> end_effectors;
   std::string urdf;                       ///< path, or "example-robot-data:NAME"; empty: none
   std::map<std::string, double> posture;  ///< nominal joint positions [rad] by URDF joint name

@@ -27,4 +27,16 @@ inline Outside outside_prism(const Polygon& polygon, double thickness, const Eig
   return {polygon.overshoot(side, p), polygon.edge_outward_W(side)};
 }
 
+/// The same, but that the nearest side may be the top or the bottom: a convex function of p, and a continuous one.
+inline Outside outside_solid(const Polygon& polygon, double thickness, const Eigen::Vector3d& p) {
+  Outside out = outside_prism(polygon, thickness, p);
+  if (out.distance > 0.0) return out;
+  const double top = polygon.height(p), bottom = -thickness - top;
+  if (std::max(top, bottom) > out.distance) {
+    out.distance = std::max(top, bottom);
+    out.outward = top > bottom ? polygon.normal_W() : Eigen::Vector3d(-polygon.normal_W());
+  }
+  return out;
+}
+
 }  // namespace mcplan::ddp

@@ -1,5 +1,8 @@
 #include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
+#include "mcplan/base/rotation.hpp"
+#include "plan/convex_min.hpp"
+#include "plan/solid_box.hpp"
 #include "prism.hpp"
 
 namespace mcplan::ddp {
@@ -8,37 +11,77 @@ namespace {
 using Eigen::Vector3d;
 
 /// A ball about the CoM stays out of the solids that stand about the way (not in the paper): distance of the CoM at
-/// least kTrunkRadius, at the knots and between them.
-class Trunk final : public CostTerm {
+/// least kTrunkRadius, at the knots and between them. So do the parts of the robot's own trunk: distance of a part's
+/// line p + R(theta) (from + s (to - from)), 0 <= s <= 1, at least its room_about().
+class TrunkTerm final : public CostTerm {
  public:
-  Trunk() : CostTerm("trunk", Scope::step, 40) {}
+  TrunkTerm() : CostTerm("trunk", Scope::step, 40) {}
 
-  bool applies(const StepView& step) const override { return !step.problem.standing_solids.empty(); }
+  bool applies(const StepView& step) const override {
+    return !step.problem.standing_solids.empty() || !step.problem.trunk_solids.empty();
+  }
 
   void write(const StepView& step, Rows& rows) const override {
     const Layout& at = step.problem.layout;
-    write_at(step, step.x.segment<3>(at.com()), rows,
-             [&](const Vector3d& outward, Eigen::Ref<Eigen::VectorXd> g) { g.segment<3>(at.com()) = outward; });
+    const Vector3d com = step.x.segment<3>(at.com());
+    write_at(step, com, step.problem.rpy(step.x), rows,
+             [&](const Vector3d& outward, const Vector3d& turn, Eigen::Ref<Eigen::VectorXd> g) {
+               g.segment<3>(at.com()) = outward;
+               for (int a = 0; a < at.axis_count(); ++a) g[at.angle(a)] = turn[at.axes()[a]];
+             });
     if (!step.u) return;
-    for (std::size_t i = 1; i + 1 < step.instants.size(); ++i)
-      write_at(step, step.instants[i].com, rows, [&](const Vector3d& outward, Eigen::Ref<Eigen::VectorXd> g) {
-        step.instants[i].add_along(outward, Vector3d::Zero(), g);
-      });
+    for (std::size_t i = 1; i + 1 < step.instants.size(); ++i) {
+      const Instant& instant = step.instants[i];
+      write_at(step, instant.com, instant.rpy, rows,
+               [&](const Vector3d& outward, const Vector3d& turn, Eigen::Ref<Eigen::VectorXd> g) {
+                 instant.add_along(outward, turn, g);
+               });
+    }
   }
 
  private:
   template <class AddGradient>
-  static void write_at(const StepView& step, const Vector3d& com, Rows& rows, const AddGradient& add_gradient) {
+  static void write_at(const StepView& step, const Vector3d& com, const Vector3d& rpy, Rows& rows,
+                       const AddGradient& add_gradient) {
     const double weight = step.schedule.tuning.limit_weight;
-    for (int i : step.problem.standing_solids) {
-      const Polygon& polygon = step.problem.polygons[i];
-      const auto [distance, outward] = outside_prism(polygon, step.problem.thickness[i], com);
-      if (distance >= kTrunkRadius) continue;
+    const auto write = [&](const Outside& outside, double room, const Vector3d& turn) {
+      if (outside.distance >= room) return;
       if (rows.with_gradient())
-        add_gradient(outward, rows.add_dense(weight, distance - kTrunkRadius));
+        add_gradient(outside.outward, turn, rows.add_dense(weight, outside.distance - room));
       else
-        rows.add_value(weight, distance - kTrunkRadius);
+        rows.add_value(weight, outside.distance - room);
+    };
+    const Problem& problem = step.problem;
+    for (int i : problem.standing_solids)
+      write(outside_prism(problem.polygons[i], problem.thickness[i], com), kTrunkRadius, Vector3d::Zero());
+    if (problem.trunk_solids.empty()) return;
+    const Eigen::Matrix3d r = rotation_from_rpy(rpy);
+    for (const TrunkPart& part : problem.trunk) {
+      const double room = part.radius;
+      const Vector3d from = com + r * part.from_B, along = r * (part.to_B - part.from_B);
+      Eigen::AlignedBox3d around(from);
+      around.extend(Vector3d(from + along));
+      for (int i : problem.trunk_solids) {
+        if (problem.solid_boxes[i].squaredExteriorDistance(around) >= room * room) continue;
+        const double s = nearest(problem, i, from, along);
+        const Outside outside = outside_solid(problem.polygons[i], problem.thickness[i], from + s * along);
+        const Vector3d place = part.from_B + s * (part.to_B - part.from_B);
+        Vector3d turn = Vector3d::Zero();
+        for (int axis : problem.layout.axes()) turn[axis] = outside.outward.dot(rotation_derivative(rpy, axis) * place);
+        write(outside, room, turn);
+      }
     }
+  }
+
+  /// Where on a line, 0 <= s <= 1, a solid is nearest.
+  static double nearest(const Problem& problem, int solid, const Vector3d& from, const Vector3d& along) {
+    const auto distance = [&](double s) {
+      return outside_solid(problem.polygons[solid], problem.thickness[solid], from + s * along).distance;
+    };
+    double best = convex_min(distance);
+    for (const double end : {0.0, 1.0})
+      if (distance(end) < distance(best)) best = end;
+    return best;
   }
 };
 
@@ -46,7 +89,7 @@ class Trunk final : public CostTerm {
 
 namespace cost {
 const CostTerm& trunk() {
-  static const Trunk term;
+  static const TrunkTerm term;
   return term;
 }
 }  // namespace cost

@@ -36,8 +36,8 @@ struct Trial {
   bool planned = false;  ///< nothing was solved: what was planned
   bool coarse = false;   ///< looked at in few instants, which was enough to see that it exceeds limits
   Ending ending = Ending::done;
-  int phases = 0;  ///< that are new
-  int work = 0;    ///< iterations times phases
+  int phases = 0;                                                    ///< that are new
+  int work = 0;                                                      ///< iterations times phases
   double accepted_from_s = std::numeric_limits<double>::infinity();  ///< what comes later was accepted before
   /// Time [s] until which the checker has to look at it.
   double to_be_seen_s() const { return std::min(plan.duration(), accepted_from_s); }

@@ -41,6 +41,36 @@ TEST_CASE("the trunk stays 0.15 CoM heights away from what stands about the way,
   check_rows(problem, trunk, 11, 0.3, 40);
 }
 
+TEST_CASE(
+    "parts of the robot's own trunk stay their radius and 0.05 CoM heights away at least, by the angles of the base") {
+  mcplan::Robot robot = scenes::humanoid44();
+  robot.trunk = {{Vector3d(0, 0, 0.1), Vector3d(0, 0, 0.5), 0.07},
+                 {Vector3d(0, -0.2, 0.4), Vector3d(0, 0.2, 0.4), 0.05}};
+  mcplan::Scene scene = scenes::flat();
+  mcplan::Surface beam = scenes::rectangle("beam", 0.9, 1.0, -0.4, 0.4, 1.6, "hand");
+  beam.thickness = 0.3;
+  scene.surfaces.push_back(beam);
+  const ddp::Problem problem(scene, robot, phases(6));
+  REQUIRE(problem.trunk_solids.size() == 1);
+  CHECK(problem.scene.surfaces[problem.trunk_solids[0]].name == "beam");
+  const Writer trunk = term(problem, "trunk", {2, 0, ddp::kFree, 100.0, 3.0});
+  const double w = problem.tuning().limit_weight;
+  const auto price = [&](const Vector3d& com_W) {
+    return std::sqrt(2.0 * cost(problem, trunk, at_place(problem, com_W), VectorXd())) / w * 0.7;
+  };
+  CHECK(price({0.95, 0.0, 0.69}) == 0.0);  // the head ends at 1.26, the shoulders at 1.14
+  CHECK(price({0.95, 0.0, 0.72}) == doctest::Approx(0.72 + 0.5 + 0.07 + 0.035 - 1.3));
+  CHECK(price({1.05, 0.0, 0.85}) == doctest::Approx(std::hypot(0.105 - 0.05, 0.085 - std::hypot(0.05, 0.05))));
+  CHECK(price({0.95, 0.65, 0.95}) == doctest::Approx(0.05 + 0.035 - 0.05));  // with a shoulder alone
+  // Below a ceiling one end of a part is nearest, but where it turns over: rows have a gradient there.
+  scene.surfaces.back() = scenes::rectangle("ceiling", -2, 4, -3, 3, 1.6, "hand");
+  scene.surfaces.back().thickness = 0.3;
+  const ddp::Problem below(scene, robot, phases(6));
+  check_rows(below, term(below, "trunk", {2, 0, ddp::kFree, 100.0, 3.0}), 11, 0.1, 40);
+  robot.trunk.clear();
+  CHECK(ddp::Problem(scene, robot, phases(6)).trunk_solids.empty());
+}
+
 TEST_CASE("ground is nothing that stands, and the paper's method knows of no trunk") {
   for (const mcplan::Scene& scene : scenes::all_four())
     CHECK(ddp::Problem(scene, scenes::humanoid44(), phases(18)).standing_solids.empty() ==
