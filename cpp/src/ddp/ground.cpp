@@ -46,7 +46,7 @@ Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& fro
   rise_ *= rise_ratio * (1.0 + 1e-9);  // steps just as high are no higher by rounding
   layers_.push_back({rise_, kTrunkHeight * height_, half_width_});
   for (const TrunkPart& part : robot.trunk) {
-    const double room = room_about(part, robot);
+    const double room = room_about(part);
     const auto [low, high] = std::minmax(part.from_B.z(), part.to_B.z());
     layers_.push_back({std::max(height_ + low - part.radius, rise_), height_ + high + part.radius - kDuck * height_,
                        std::max(std::abs(part.from_B.y()), std::abs(part.to_B.y())) + room});

@@ -202,7 +202,7 @@ void Problem::find_trunk_solids() {
   double aside = 0.0, low = 0.0, high = 0.0;
   for (const TrunkPart& part : robot.trunk) {
     const TrunkPart& own = trunk.emplace_back(
-        TrunkPart{part.from_B / units.length, part.to_B / units.length, room_about(part, robot) / units.length});
+        TrunkPart{part.from_B / units.length, part.to_B / units.length, room_about(part) / units.length});
     const double room = own.radius + kTrunkMove;
     for (const Vector3d& end : {own.from_B, own.to_B}) {
       aside = std::max(aside, end.head<2>().norm() + room);

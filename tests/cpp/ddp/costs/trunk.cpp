@@ -41,8 +41,7 @@ TEST_CASE("the trunk stays 0.15 CoM heights away from what stands about the way,
   check_rows(problem, trunk, 11, 0.3, 40);
 }
 
-TEST_CASE(
-    "parts of the robot's own trunk stay their radius and 0.05 CoM heights away at least, by the angles of the base") {
+TEST_CASE("parts of the robot's own trunk stay 1.25 radii away, by the angles of the base") {
   mcplan::Robot robot = scenes::humanoid44();
   robot.trunk = {{Vector3d(0, 0, 0.1), Vector3d(0, 0, 0.5), 0.07},
                  {Vector3d(0, -0.2, 0.4), Vector3d(0, 0.2, 0.4), 0.05}};
@@ -59,9 +58,9 @@ TEST_CASE(
     return std::sqrt(2.0 * cost(problem, trunk, at_place(problem, com_W), VectorXd())) / w * 0.7;
   };
   CHECK(price({0.95, 0.0, 0.69}) == 0.0);  // the head ends at 1.26, the shoulders at 1.14
-  CHECK(price({0.95, 0.0, 0.72}) == doctest::Approx(0.72 + 0.5 + 0.07 + 0.035 - 1.3));
-  CHECK(price({1.05, 0.0, 0.85}) == doctest::Approx(std::hypot(0.105 - 0.05, 0.085 - std::hypot(0.05, 0.05))));
-  CHECK(price({0.95, 0.65, 0.95}) == doctest::Approx(0.05 + 0.035 - 0.05));  // with a shoulder alone
+  CHECK(price({0.95, 0.0, 0.72}) == doctest::Approx(0.72 + 0.5 + 1.25 * 0.07 - 1.3));
+  CHECK(price({1.05, 0.0, 0.85}) == doctest::Approx(1.25 * 0.07 - 0.05));   // beside the head
+  CHECK(price({0.95, 0.65, 0.95}) == doctest::Approx(1.25 * 0.05 - 0.05));  // with a shoulder alone
   // Below a ceiling one end of a part is nearest, but where it turns over: rows have a gradient there.
   scene.surfaces.back() = scenes::rectangle("ceiling", -2, 4, -3, 3, 1.6, "hand");
   scene.surfaces.back().thickness = 0.3;
