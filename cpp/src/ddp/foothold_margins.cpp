@@ -15,11 +15,11 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Footholds are so much further from a wall, in heights of the CoM (0.04 m of TALOS), within this ratio of the
+/// Footholds are so much further from a wall, in heights of the CoM: 0.04 m of TALOS, within this ratio of the
 /// surface's width. Measured on tilted patches: heels of TALOS are 16 mm longer than its sole, swings that fall steeply
 /// beside a wall land 20 mm off and late, and with 0.03 m one still caught its edge. The G1's plans cost 0.6 times what
 /// they do with 0.04 m.
-constexpr double kWallRoom = 0.0456, kWallShare = 0.5, kWallNarrow = 0.48;
+constexpr double kWallRoom = 0.04 / 0.877, kWallShare = 0.5, kWallNarrow = 0.48;
 /// Cosine of the angle to the headings of start and goal, above which an edge is ahead. Chosen.
 constexpr double kAhead = 0.7;
 
