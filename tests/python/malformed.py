@@ -329,7 +329,7 @@ ROBOT_BREAKS: list[Break] = [
     (("end_effectors", 0, "maxforce"), 1.0, "end_effectors[0].maxforce", "Did you mean 'max_force'?"),
     (("trunk",), {"from": [0, 0, 0], "to": [0, 0, 0.3], "radius": 0.1}, "trunk", "must be a list"),
     (("trunk",), [{"from": [0, 0, 0], "to": [0, 0, 0.3]}], "trunk[0].radius", "is required"),
-    (("trunk",), [{"from": [0, 0, -9], "to": [0, 0, 0.3], "radius": 0.1}], "trunk[0]", "must lie above the ground"),
+    (("trunk",), [{"from": [0, 0, -0.9], "to": [0, 0, 0.3], "radius": 0.1}], "trunk[0]", "must lie above the ground"),
 ]
 
 # (content, part of the message after the file's name)

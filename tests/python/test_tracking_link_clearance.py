@@ -76,3 +76,22 @@ def test_a_plan_that_leads_head_and_arms_into_a_beam_cannot_be_followed(walk):
     worst = max(found.of("link").values(), key=lambda f: f.use)
     assert worst.value > LINK_DEPTH and not found.ok()
     assert any("arm" in where for where in found.of("link")) and any("head" in where for where in found.of("link"))
+
+
+@pytest.mark.parametrize("thickness", [1e-9, 1e-3, 1e6])
+def test_solids_of_any_thickness_have_a_depth(walk, postures, thickness):
+    """Of what is flat there is no convex hull: it once ended Python."""
+    scene = with_block(walk, (0.9, 1.0), (-1.0, 1.0), (1.3, 1.5))
+    scene.surfaces[-1].thickness = thickness
+    found = link_findings(scene, *postures)
+    assert found and all(0.0 < f.value < 1.0 for f in found)
+
+
+def test_solids_far_away_change_nothing_and_take_no_time(walk):
+    scene = mp.load_scene("flat")
+    far = [mp.model.Surface(name=f"s{i}", thickness=0.1, end_effectors=["hand"]) for i in range(300)]
+    for i, surface in enumerate(far):
+        surface.vertices_W = [[x + 20 + i, y, 1.0] for x, y in ((0, 0), (0.5, 0), (0.5, 0.5), (0, 0.5))]
+    plan = copy.deepcopy(walk)
+    plan.scene.surfaces = [*scene.surfaces, *far]
+    assert assess(plan) == assess(walk)

@@ -2,12 +2,42 @@
 
 #include "ddp/costs/prism.hpp"
 #include "ddp/impossible.hpp"
+#include "mcplan/base/rotation.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/robot/similarity.hpp"
 #include "model/text.hpp"
 #include "plan/solid_box.hpp"
 
 namespace mcplan::ddp {
+namespace {
+
+using Eigen::Vector3d;
+
+std::optional<Impossible> part_in_solid(const Scene& scene, const Robot& robot, const ResolvedStance& at,
+                                        const char* name) {
+  const Tolerances tolerances;
+  const double length = similarity_of(robot, scene.gravity).length;
+  const Eigen::Matrix3d r = rotation_from_rpy(at.base_rpy);
+  for (const TrunkPart& part : robot.trunk) {
+    const double lever = std::max(part.from_B.norm(), part.to_B.norm());
+    const double allowed_m = (tolerances.clearance + tolerances.boundary + 2.0 * tolerances.dynamics) * length +
+                             (3.0 * tolerances.boundary + tolerances.orientation) * lever;
+    const Vector3d from = at.com_W + r * part.from_B, along = r * (part.to_B - part.from_B);
+    for (const Surface& surface : scene.surfaces) {
+      const Polygon polygon(surface.vertices_W);
+      const double s = nearest_on_line(polygon, surface.thickness, from, along);
+      const double depth_m =
+          part.radius - std::max(outside_solid(polygon, surface.thickness, from + s * along).distance, 0.0);
+      if (!(depth_m > allowed_m)) continue;
+      return Impossible{std::string(name) + ": the trunk of " + robot.name + " would be " +
+                            model::digits(depth_m, "%.2g") + " m deep in the solid of " + model::shown(surface.name),
+                        {"trunk", -1, "", 0.0, depth_m, allowed_m, "m", surface.name}};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 /// At its stance a plan has (`start`, `goal`) a CoM p within b of the stance's p*, from which the replayed one differs
 /// by at most the tolerance of `dynamics`. A ball about the CoM, of radius r = kTrunkBall CoM heights, is no deeper
@@ -16,7 +46,9 @@ namespace mcplan::ddp {
 ///
 ///     r - c - b
 ///
-/// to a solid, there is no plan.
+/// to a solid, there is no plan. Likewise of the parts of the robot's own trunk, r their radius and p on their line:
+/// the base's angles are within b of the stance's, and replayed within that of `orientation`, which moves what is e
+/// from the CoM by e (3 b + o) more.
 std::optional<Impossible> trunk_in_solid(const Scene& scene, const Robot& robot, bool at_goal) {
   const char* name = at_goal ? "goal" : "start";
   const ResolvedStance at = resolve_stance(scene, robot, at_goal ? scene.goal : scene.start, name);
@@ -32,7 +64,7 @@ std::optional<Impossible> trunk_in_solid(const Scene& scene, const Robot& robot,
                           model::digits(at.com_W, "%.4g") + ", would be in the solid of " + model::shown(surface.name),
                       {"trunk", -1, "", 0.0, depth_m, allowed_m, "m", surface.name}};
   }
-  return std::nullopt;
+  return part_in_solid(scene, robot, at, name);
 }
 
 }  // namespace mcplan::ddp

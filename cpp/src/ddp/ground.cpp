@@ -17,9 +17,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// By so much, in heights of the CoM, a robot ducks below what its trunk would touch. Chosen: the
-/// G1 ducked by 0.11 m falls when it is tracked.
-constexpr double kDuck = 0.12;
+/// By so much, in heights of the CoM, a robot ducks below what its trunk would touch, on two feet and on four. Chosen:
+/// the G1 ducked by 0.11 m falls when it is tracked, and ANYmal ducked by 0.13 m does not.
+constexpr double kDuck = 0.12, kDuckOnFour = 0.25;
+/// Room about hands in their nominal place, for elbows, likewise. Chosen.
+constexpr double kArmRoom = 0.1;
 
 }  // namespace
 
@@ -45,11 +47,17 @@ Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& fro
   }
   rise_ *= rise_ratio * (1.0 + 1e-9);  // steps just as high are no higher by rounding
   layers_.push_back({rise_, kTrunkHeight * height_, half_width_});
+  const double duck = feet_.size() >= 4 ? kDuckOnFour : kDuck;
   for (const TrunkPart& part : robot.trunk) {
     const double room = room_about(part);
     const auto [low, high] = std::minmax(part.from_B.z(), part.to_B.z());
-    layers_.push_back({std::max(height_ + low - part.radius, rise_), height_ + high + part.radius - kDuck * height_,
+    layers_.push_back({std::max(height_ + low - part.radius, rise_), height_ + high + part.radius - duck * height_,
                        std::max(std::abs(part.from_B.y()), std::abs(part.to_B.y())) + room});
+  }
+  for (const EndEffector& end : robot.end_effectors) {
+    if (robot.trunk.empty() || end.kind == "foot") continue;
+    arms_ = {std::max(height_ + end.nominal_B.z(), rise_), kTrunkHeight * height_,
+             std::max(arms_.within, std::abs(end.nominal_B.y()) + kArmRoom * height_)};
   }
   for (int i = 0; i < static_cast<int>(scene.surfaces.size()); ++i) {
     const Surface& surface = scene.surfaces[i];
@@ -136,7 +144,8 @@ std::vector<Place> Ground::places(const Vector2d& at) const {
     for (const Layer& layer : layers_)
       if (place.solid < 0) place.solid = solid_at(at, place.height, layer);
     const Layer turning{layers_.front().low, layers_.front().high, radius_};
-    place.tight = place.solid >= 0 || solid_at(at, place.height, turning) >= 0;
+    place.tight = place.solid >= 0 || solid_at(at, place.height, turning) >= 0 ||
+                  (arms_.within > 0.0 && solid_at(at, place.height, arms_) >= 0);
     out.push_back(place);
   }
   std::sort(out.begin(), out.end(), [](const Place& a, const Place& b) { return a.height > b.height; });

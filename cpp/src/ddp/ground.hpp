@@ -50,7 +50,7 @@ class Ground {
   Footing footing(const Patch& patch, const Eigen::Vector2d& at) const;
   /// Where the trunk would be: heights above the ground, and so near to the CoM's axis.
   struct Layer {
-    double low, high, within;
+    double low = 0.0, high = 0.0, within = 0.0;
   };
   int solid_at(const Eigen::Vector2d& at, double height, const Layer& layer) const;
 
@@ -60,6 +60,7 @@ class Ground {
   double inside_ = 0.0;                     // how far soles stay inside of their surface
   double half_width_ = 0.0, height_ = 0.0;  // of the trunk and the feet beside it
   std::vector<Layer> layers_;               // the first up to above the CoM, then those of the parts of the trunk
+  Layer arms_;                              // of hands that hang, beside which there is little room
   double radius_ = 0.0;                     // about the CoM, of all of the feet
   std::vector<Patch> patches_;              // surfaces that hold the feet
   struct Standing {

@@ -110,7 +110,8 @@ class Problem {
   std::vector<int> standing_solids;              ///< surfaces whose solids come near the reference of the CoM
   std::vector<int> trunk_solids;                 ///< and those that come near the trunk there, of a robot that has one
   std::vector<Eigen::AlignedBox3d> solid_boxes;  ///< about the solids, where there are such
-  std::vector<TrunkPart> trunk;                  ///< in units of length, with the room that it keeps for a radius
+  std::vector<TrunkPart> trunk;                  ///< in units of length
+  std::vector<std::vector<double>> trunk_rooms;  ///< that its line keeps: by part and solid of trunk_solids
   std::vector<EndLimits> limits;                 ///< by active end-effector
   /// Active end-effectors with limb limits, and the sum of their nominal positions.
   struct Jointed {
@@ -223,6 +224,7 @@ class Problem {
   std::vector<double> balanced_loads(const ContactState& contacts, const Eigen::VectorXd& x) const;
   void find_standing_solids();
   void find_trunk_solids();
+  void make_trunk_rooms();
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "ddp/constants.hpp"
+#include "ddp/costs/prism.hpp"
 #include "ddp/problem.hpp"
 #include "ddp/trunk_room.hpp"
 #include "mcplan/base/rotation.hpp"
@@ -201,8 +202,8 @@ void Problem::find_trunk_solids() {
   if (options.method == Method::paper || robot.trunk.empty()) return;
   double aside = 0.0, low = 0.0, high = 0.0;
   for (const TrunkPart& part : robot.trunk) {
-    const TrunkPart& own = trunk.emplace_back(
-        TrunkPart{part.from_B / units.length, part.to_B / units.length, room_about(part) / units.length});
+    const TrunkPart& own =
+        trunk.emplace_back(TrunkPart{part.from_B / units.length, part.to_B / units.length, part.radius / units.length});
     const double room = own.radius + kTrunkMove;
     for (const Vector3d& end : {own.from_B, own.to_B}) {
       aside = std::max(aside, end.head<2>().norm() + room);
@@ -222,6 +223,25 @@ void Problem::find_trunk_solids() {
     const Eigen::AlignedBox3d& box = solid_boxes.emplace_back(box_of(Solid{polygons[i], thickness[i]}));
     if (std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) { return piece.intersects(box); }))
       trunk_solids.push_back(static_cast<int>(i));
+  }
+  make_trunk_rooms();
+}
+
+/// Where the scene itself puts the trunk nearer to a solid than that there is no more room to ask for.
+void Problem::make_trunk_rooms() {
+  trunk_rooms.clear();
+  for (const TrunkPart& part : trunk) {
+    std::vector<double>& rooms = trunk_rooms.emplace_back();
+    for (int solid : trunk_solids) {
+      double room = room_about(part);
+      for (const VectorXd* x : {&reference.x.front(), &reference.x.back()}) {
+        const Eigen::Matrix3d r = rotation_from_rpy(rpy(*x));
+        const Vector3d from = x->segment<3>(layout.com()) + r * part.from_B, along = r * (part.to_B - part.from_B);
+        const double s = nearest_on_line(polygons[solid], thickness[solid], from, along);
+        room = std::min(room, outside_solid(polygons[solid], thickness[solid], from + s * along).distance);
+      }
+      rooms.push_back(std::max(room, part.radius));
+    }
   }
 }
 

@@ -378,7 +378,12 @@ Walk RecedingHorizon::result() const {
   report.friction_use = friction_use(plan);
   if (out.cycles.back().executed) report.worst_violation = found.worst();
   if (report.status == Status::solved && !found.ok()) {
-    report.status = Status::acceptable;
+    // A walk through a solid is no matter of margins: nothing here knows of solids, but where soles land.
+    constexpr double kThrough = 10.0;
+    const Violation& worst = found.worst();
+    const bool through =
+        (worst.name == "trunk" || worst.name == "limb") && worst.value > kThrough * std::max(worst.tolerance, 0.0);
+    report.status = through ? Status::infeasible : Status::acceptable;
     report.message = "every cycle converged, but the checker finds " + found.worst().to_string();
   }
   return out;

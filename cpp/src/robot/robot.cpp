@@ -100,9 +100,15 @@ void require_limb(const EndEffector& e, const std::string& field) {
 }
 
 void require_trunk(const Robot& robot, const TrunkPart& part, const std::string& field) {
+  constexpr double kFar = 10.0;
   const double lowest = robot.com_height + std::min(part.from_B.z(), part.to_B.z()) - part.radius;
+  const double farthest = std::max(part.from_B.norm(), part.to_B.norm()) + part.radius;
+  if (!(farthest <= kFar * robot.com_height))
+    throw InvalidRobot(field, "must lie within " + text(kFar) + " com_heights of the CoM", text(farthest) + " m");
   if (!(lowest > 0.0))
-    throw InvalidRobot(field, "must lie above the ground in the nominal stance", text(lowest) + " m above it");
+    throw InvalidRobot(field,
+                       "must lie above the ground in the nominal stance: com_height + min(from.z, to.z) > radius",
+                       text(lowest) + " m above it");
 }
 
 }  // namespace

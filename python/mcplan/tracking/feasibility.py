@@ -63,12 +63,13 @@ def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> F
     Raises:
         MissingExtra: Pinocchio or SciPy is not installed.
         InvalidRobot: The robot has no URDF, or not an end-effector that the plan has in contact.
-        InvalidInput: payload_kg is negative or not finite.
+        InvalidInput: payload_kg is negative or not finite, or the plan, its scene or its robot is malformed.
     """
     from mcplan.kinematics.urdf_model import load_model
 
     if not (np.isfinite(payload_kg) and payload_kg >= 0.0):
         raise InvalidInput("payload_kg", "must be 0 or more", str(payload_kg))
+    plan.validate()
     robot = plan.robot if robot is None else robot
     require("telling whether a robot can follow a plan", "view", "pinocchio", "scipy")
     urdf_model = load_model(robot)

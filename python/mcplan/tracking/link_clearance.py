@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+#: Solids are taken to be so thick at least and at most [m]: convex hulls of what is flat, or without end, are none.
+THICKNESS = (1e-3, 10.0)
 #: Depth in a solid that is accepted [m]: shins graze edges of treads, and controllers yield by so much.
 LINK_DEPTH = 0.03
 
@@ -49,8 +51,10 @@ def link_findings(scene: Scene, urdf_model: UrdfModel, samples: Samples, posture
     import coal  # type: ignore[import-untyped]
     import pinocchio as pin  # type: ignore[import-untyped]
 
-    shapes = [(shape, _body(shape.points)) for shape in link_shapes(urdf_model) if shape.on_terrain]
-    solids = [(surface.name, _body(_prism(surface))) for surface in scene.surfaces]
+    hulls = [(shape, _body(shape.points)) for shape in link_shapes(urdf_model) if shape.on_terrain]
+    shapes = [(shape, body) for shape, body in hulls if body is not None]
+    prisms = [(surface.name, _body(_prism(surface))) for surface in scene.surfaces]
+    solids = [(name, body) for name, body in prisms if body is not None]
     if not shapes or not solids:
         return []
     centers, radii = np.array([body.center for _, body in solids]), np.array([body.radius for _, body in solids])
@@ -71,8 +75,8 @@ def link_findings(scene: Scene, urdf_model: UrdfModel, samples: Samples, posture
     return list(deepest.values())
 
 
-def _body(points: Array) -> _Body:
-    """The convex hull of points."""
+def _body(points: Array) -> _Body | None:
+    """The convex hull of points; None where they have none."""
     import coal
 
     mesh = coal.BVHModelOBBRSS()
@@ -80,6 +84,8 @@ def _body(points: Array) -> _Body:
     mesh.addVertices(points)
     mesh.endModel()
     mesh.buildConvexHull(True, "Qt")
+    if mesh.convex is None:
+        return None
     center = 0.5 * (points.min(axis=0) + points.max(axis=0))
     return _Body(mesh.convex, center, float(np.linalg.norm(points - center, axis=1).max()))
 
@@ -87,4 +93,4 @@ def _body(points: Array) -> _Body:
 def _prism(surface: Any) -> Array:
     """(2 n, 3) corners of the solid below a surface [m]."""
     top = np.asarray(surface.vertices_W, float)
-    return np.vstack([top, top - float(surface.thickness) * polygon_normal(top)])
+    return np.vstack([top, top - float(np.clip(surface.thickness, *THICKNESS)) * polygon_normal(top)])

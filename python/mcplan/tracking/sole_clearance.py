@@ -24,6 +24,8 @@ DEPTH = 0.006
 CUTS = 5
 #: Part of a swing at its begin and end in which a sole is near to what it leaves and reaches.
 NEAR_GROUND = 0.1
+#: Solids farther than this are looked at only where none is nearer [m].
+NEAR_M = 0.5
 #: Points of a sole along each side: an edge may come up between its corners.
 GRID = (7, 3)
 
@@ -58,7 +60,8 @@ def clearance_findings(
         for time, row in zip(times, placements, strict=True):
             name, ignored = _ignored(own, float(time), float(times[-1]), final_contacts[end])
             rotation, position = row[end]
-            clearances = solids.clearances(position + sole @ rotation.T).min(axis=0)
+            points = position + sole @ rotation.T
+            clearances = solids.clearances(points, solids.near(points, NEAR_M)).min(axis=0)
             clearances[ignored] = np.inf
             nearest = int(np.argmin(clearances))
             depth = -float(clearances[nearest])

@@ -86,6 +86,14 @@ TEST_CASE("what a robot has above its CoM passes no place that is lower or narro
   CHECK_FALSE(blocked(1.0, -0.4));
   CHECK_FALSE(blocked(1.08, -0.3));  // above the shoulders
   CHECK(blocked(1.08, -0.05));
+  // Hands hang beside it: there is a way, but little room.
+  robot.end_effectors[2].nominal_B.y() = -0.4;
+  scene.surfaces.back().thickness = 2.0 - 0.6;
+  const auto beside = ground_of(scene, robot).places({0.55, -0.45});
+  REQUIRE(beside.size() == 1);
+  CHECK(beside[0].solid < 0);
+  CHECK(beside[0].tight);
+  CHECK_FALSE(ground_of(scene, robot).places({0.55, -0.6})[0].tight);
   robot.trunk.clear();
   CHECK_FALSE(blocked(1.0, 0.2));
 }

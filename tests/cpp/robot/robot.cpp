@@ -130,6 +130,8 @@ TEST_CASE("parts of a trunk have a size and lie above the ground") {
   CHECK(with({Vector3d(0, 0, -0.3), Vector3d(0, 0, 0.4), -0.1}) == "trunk[1].radius");
   CHECK(with({Vector3d(0, 0, -0.3), Vector3d(0, 0, std::nan("")), 0.1}) == "trunk[1].to[2]");
   CHECK(with({Vector3d(0, 0, 0.4), Vector3d(0, 0, -0.4), 0.1}) == "trunk[1]");
+  CHECK(with({Vector3d(0, 0, 0.4), Vector3d(0, 0, 6.0), 0.1}) == "trunk[1]");  // farther than ten heights of the CoM
+  CHECK(with({Vector3d(0, 0, 0.4), Vector3d(1e308, 0, 0.4), 0.1}) == "trunk[1]");
 }
 
 TEST_CASE("a sole may be turned both ways, or any way") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mcplan/scene/polygon.hpp"
+#include "plan/convex_min.hpp"
 
 namespace mcplan::ddp {
 
@@ -37,6 +38,16 @@ inline Outside outside_solid(const Polygon& polygon, double thickness, const Eig
     out.outward = top > bottom ? polygon.normal_W() : Eigen::Vector3d(-polygon.normal_W());
   }
   return out;
+}
+
+/// Where on a line from + s along, 0 <= s <= 1, a solid is nearest.
+inline double nearest_on_line(const Polygon& polygon, double thickness, const Eigen::Vector3d& from,
+                              const Eigen::Vector3d& along) {
+  const auto distance = [&](double s) { return outside_solid(polygon, thickness, from + s * along).distance; };
+  double best = convex_min(distance);
+  for (const double end : {0.0, 1.0})
+    if (distance(end) < distance(best)) best = end;
+  return best;
 }
 
 }  // namespace mcplan::ddp

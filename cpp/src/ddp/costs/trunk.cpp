@@ -1,7 +1,6 @@
 #include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
 #include "mcplan/base/rotation.hpp"
-#include "plan/convex_min.hpp"
 #include "plan/solid_box.hpp"
 #include "prism.hpp"
 
@@ -12,7 +11,8 @@ using Eigen::Vector3d;
 
 /// A ball about the CoM stays out of the solids that stand about the way (not in the paper): distance of the CoM at
 /// least kTrunkRadius, at the knots and between them. So do the parts of the robot's own trunk: distance of a part's
-/// line p + R(theta) (from + s (to - from)), 0 <= s <= 1, at least its room_about().
+/// line p + R(theta) (from + s (to - from)), 0 <= s <= 1, at least room_about(), or
+/// what there is at the start or the goal.
 class TrunkTerm final : public CostTerm {
  public:
   TrunkTerm() : CostTerm("trunk", Scope::step, 40) {}
@@ -56,32 +56,24 @@ class TrunkTerm final : public CostTerm {
       write(outside_prism(problem.polygons[i], problem.thickness[i], com), kTrunkRadius, Vector3d::Zero());
     if (problem.trunk_solids.empty()) return;
     const Eigen::Matrix3d r = rotation_from_rpy(rpy);
-    for (const TrunkPart& part : problem.trunk) {
-      const double room = part.radius;
+    for (std::size_t j = 0; j < problem.trunk.size(); ++j) {
+      const TrunkPart& part = problem.trunk[j];
       const Vector3d from = com + r * part.from_B, along = r * (part.to_B - part.from_B);
       Eigen::AlignedBox3d around(from);
       around.extend(Vector3d(from + along));
-      for (int i : problem.trunk_solids) {
-        if (problem.solid_boxes[i].squaredExteriorDistance(around) >= room * room) continue;
-        const double s = nearest(problem, i, from, along);
-        const Outside outside = outside_solid(problem.polygons[i], problem.thickness[i], from + s * along);
+      for (std::size_t i = 0; i < problem.trunk_solids.size(); ++i) {
+        const int solid = problem.trunk_solids[i];
+        const double room = problem.trunk_rooms[j][i];
+        if (problem.solid_boxes[solid].squaredExteriorDistance(around) >= room * room) continue;
+        const Polygon& polygon = problem.polygons[solid];
+        const double s = nearest_on_line(polygon, problem.thickness[solid], from, along);
+        const Outside outside = outside_solid(polygon, problem.thickness[solid], from + s * along);
         const Vector3d place = part.from_B + s * (part.to_B - part.from_B);
         Vector3d turn = Vector3d::Zero();
         for (int axis : problem.layout.axes()) turn[axis] = outside.outward.dot(rotation_derivative(rpy, axis) * place);
         write(outside, room, turn);
       }
     }
-  }
-
-  /// Where on a line, 0 <= s <= 1, a solid is nearest.
-  static double nearest(const Problem& problem, int solid, const Vector3d& from, const Vector3d& along) {
-    const auto distance = [&](double s) {
-      return outside_solid(problem.polygons[solid], problem.thickness[solid], from + s * along).distance;
-    };
-    double best = convex_min(distance);
-    for (const double end : {0.0, 1.0})
-      if (distance(end) < distance(best)) best = end;
-    return best;
   }
 };
 

@@ -63,6 +63,21 @@ bool as_before(const Rest& rest, const Plan& previous, const Scene& scene, int c
   return true;
 }
 
+/// Whether no more than one contact is made or broken from one phase of the tail to the next: what the checker may not
+/// have asked of the plan before.
+bool one_switch_per_step(const Tail& tail) {
+  for (std::size_t k = 1; k <= tail.phases.size(); ++k) {
+    int switches = 0;
+    for (std::size_t e = 0; e < tail.final_contacts.size(); ++e) {
+      const int before = tail.phases[k - 1].contacts[e].surface;
+      const int after = k < tail.phases.size() ? tail.phases[k].contacts[e].surface : tail.final_contacts[e];
+      if (before != after) switches += before == kFree || after == kFree ? 1 : 2;
+    }
+    if (switches > 1) return false;
+  }
+  return true;
+}
+
 /// Phase of a tail from which nothing is other than in the plan that it is of. The headings of soles that stand where
 /// it begins may be, until they have landed elsewhere, and lifts of what is in the air there.
 int unchanged_from(const Tail& tail) {
@@ -111,7 +126,8 @@ void keep_tail(Rest& rest, const Plan& previous, const Scene& scene, const Robot
     tail->swings.back().first_phase = std::max(swing.first_phase - before, 0);
     tail->swings.back().end_phase -= before;
   }
-  const bool accepted = options.previous_accepted && scene == previous.scene && robot == previous.robot;
+  const bool accepted = options.previous_accepted && scene == previous.scene && robot == previous.robot &&
+                        (!options.search.one_switch_per_step || one_switch_per_step(*tail));
   tail->unseen_from = accepted ? unchanged_from(*tail) : count;
   rest.plan.final_contacts = rest.contacts(cut);
   rest.plan.phases.resize(cut);

@@ -66,6 +66,13 @@ TEST_CASE("parts of the robot's own trunk stay 1.25 radii away, by the angles of
   scene.surfaces.back().thickness = 0.3;
   const ddp::Problem below(scene, robot, phases(6));
   check_rows(below, term(below, "trunk", {2, 0, ddp::kFree, 100.0, 3.0}), 11, 0.1, 40);
+  // Where the start leaves less than that, 0.08 m of which 0.07 are the radius, no more is asked for.
+  scene.surfaces.back() = scenes::rectangle("shelf", -0.2, -0.08, -3, 3, 1.6, "hand");
+  scene.surfaces.back().thickness = 0.6;
+  const ddp::Problem beside(scene, robot, phases(6));
+  const Writer at_wall = term(beside, "trunk", {2, 0, ddp::kFree, 100.0, 3.0});
+  CHECK(cost(beside, at_wall, at_place(beside, {0.0, 0.0, 0.7}), VectorXd()) == 0.0);
+  CHECK(cost(beside, at_wall, at_place(beside, {-0.005, 0.0, 0.7}), VectorXd()) > 0.0);
   robot.trunk.clear();
   CHECK(ddp::Problem(scene, robot, phases(6)).trunk_solids.empty());
 }

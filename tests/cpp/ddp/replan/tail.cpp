@@ -203,3 +203,19 @@ TEST_CASE("on another scene or for another robot all of it is looked at, accepte
     CHECK(result.report.checked_until_s == result.plan.duration());
   }
 }
+
+TEST_CASE("where one switch a step is asked for, what may have more is looked at again") {
+  // The plan before may have been accepted where that was not asked.
+  Plan hopping = walk();
+  const std::size_t last = hopping.phases.size() - 2;
+  for (int e : {0, 1}) hopping.phases[last].contacts[e].surface = -1;
+  ReplanOptions options;
+  options.previous_accepted = true;
+  for (const bool one : {true, false}) {
+    options.search.one_switch_per_step = one;
+    Rest rest = rest_of(hopping, kTime_s);
+    keep_tail(rest, hopping, hopping.scene, hopping.robot, options, 3);
+    REQUIRE(rest.tail);
+    CHECK((rest.tail->unseen_from == static_cast<int>(rest.tail->phases.size())) == one);
+  }
+}
