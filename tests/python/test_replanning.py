@@ -526,3 +526,26 @@ def test_ten_thousand_replans_take_no_more_memory(flat):
         if i == 500:
             before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 4096  # [KiB]
+
+
+def test_a_foot_that_lies_on_a_slope_and_is_said_to_touch_nothing_is_not_in_the_slope():
+    """Contacts flicker. The sole was taken for level there, with its toe in the ramp, and the replan was rejected."""
+    plan = mp.plan("ramp", "g1").plan
+    times, slope = plan.knot_times(), [surface.name for surface in plan.scene.surfaces].index("slope")
+    seen = 0
+    for k, phase in enumerate(plan.phases[:-2]):
+        landed = [e for e in (0, 1) if plan.phases[k - 1].contacts[e].surface < 0 <= phase.contacts[e].surface]
+        if k == 0 or not landed or min(phase.contacts[e].surface for e in (0, 1)) != slope:
+            continue
+        # It has landed when the first replan begins, and is in the air again for the second.
+        knot, contacts = state_at(plan, times[k] + 0.02)
+        under_way = mp.replan(plan, times[k] + 0.02, knot, contacts=contacts).plan
+        knot, contacts = state_at(under_way, 0.1)
+        contacts = [-1 if e == landed[0] else surface for e, surface in enumerate(contacts)]
+        places = np.array(knot.end_effectors_W)
+        places[landed[0], 2] += 0.001
+        knot.end_effectors_W = places
+        report = mp.replan(under_way, 0.1, knot, contacts=contacts).report
+        assert report.status.name == "solved", report.message
+        seen += 1
+    assert seen >= 2

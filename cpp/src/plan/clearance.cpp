@@ -102,9 +102,10 @@ std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Soli
   }
   if (stretches.empty() || stretches.front().first_phase > 0) return stretches;
   for (const Swing& swing : plan.swings)
-    if (swing.end_effector == end_effector && swing.first_phase == 0 && swing.elapsed_s > 0.0) {
-      stretches.front().before_s = begun_s(swing, robot, similarity);
-      stretches.front().lift_normal_W = swing.lift_normal_W.normalized();
+    if (swing.end_effector == end_effector && swing.first_phase == 0) {
+      if (swing.elapsed_s > 0.0) stretches.front().before_s = begun_s(swing, robot, similarity);
+      // What is in the air at the start is as tilted there as the plan says.
+      if (swing.lift_normal_W.norm() > 0.0) stretches.front().lift_normal_W = swing.lift_normal_W.normalized();
     }
   return stretches;
 }

@@ -84,6 +84,7 @@ void choose(Plan& plan, Swing& swing, FreeStretch stretch, const std::vector<Cho
   }
   swing.height = best.height;
   swing.elapsed_s = best.elapsed_s;
+  if (!(best.elapsed_s > 0.0)) swing.lift_normal_W = lifted_from_W;
 }
 
 }  // namespace
@@ -103,7 +104,29 @@ std::vector<Swing> swings_under_way(const Plan& plan, double t) {
   return out;
 }
 
-void choose_swings(Plan& plan, bool heights, const std::vector<Swing>& under_way) {
+std::vector<Eigen::Vector3d> sole_normals(const Plan& plan, double t) {
+  const std::vector<Solid> solids = solids_of(plan.scene);
+  const Similarity similarity = similarity_of(plan.robot, plan.scene.gravity);
+  const std::vector<double> times = plan.knot_times();
+  const int count = static_cast<int>(plan.phases.size());
+  int k = 0;
+  while (k + 1 < count && times[k + 1] <= t) ++k;
+  std::vector<Eigen::Vector3d> out(plan.end_effector_count(), Eigen::Vector3d::UnitZ());
+  for (int e = 0; e < plan.end_effector_count(); ++e) {
+    if (const int surface = plan.phases[k].contacts[e].surface; surface >= 0)
+      out[e] = solids[surface].polygon.normal_W();
+    for (const FreeStretch& stretch : free_stretches(plan, solids, e, plan.robot, similarity)) {
+      if (k < stretch.first_phase || k >= stretch.end_phase) continue;
+      const double s = std::clamp(stretch.ratio(t - stretch.start_s), 0.0, 1.0);
+      const Eigen::Vector3d normal = (1.0 - s) * stretch.lift_normal_W + s * stretch.land_normal_W;
+      if (normal.norm() > 1e-6) out[e] = normal.normalized();
+    }
+  }
+  return out;
+}
+
+void choose_swings(Plan& plan, bool heights, const std::vector<Swing>& under_way,
+                   const std::vector<Eigen::Vector3d>& normals_W) {
   plan.swings.clear();
   require_shape(plan, plan.scene.surfaces.size());
   const std::vector<Solid> solids = solids_of(plan.scene);
@@ -114,7 +137,9 @@ void choose_swings(Plan& plan, bool heights, const std::vector<Swing>& under_way
   for (int k = 0; k < static_cast<int>(plan.phases.size()); ++k)
     if (plan.phases[k].duration > 0.0 && std::isfinite(plan.phases[k].duration)) require_queryable(plan, k, 0.0);
   for (int e = 0; e < plan.end_effector_count(); ++e)
-    for (const FreeStretch& stretch : free_stretches(plan, solids, e)) {
+    for (FreeStretch stretch : free_stretches(plan, solids, e)) {
+      if (stretch.first_phase == 0 && plan.measured_start && e < static_cast<int>(normals_W.size()))
+        stretch.lift_normal_W = normals_W[e];
       Swing swing;
       swing.end_effector = e;
       swing.first_phase = stretch.first_phase;

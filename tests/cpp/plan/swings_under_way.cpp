@@ -174,3 +174,35 @@ TEST_CASE("the time since lift-off is refused where the swing begins in the plan
   plan.swings[0].elapsed_s = 0.1;
   CHECK_NOTHROW(plan.validate());
 }
+
+TEST_CASE("soles are tilted as what they stand on, and on the way from there to what they land on") {
+  Plan plan = walk();
+  for (Vector3d& v : plan.scene.surfaces[patch].vertices_W) v.z() += 0.2 * v.x();
+  for (Vector3d& v : plan.scene.surfaces[ground].vertices_W) v.z() -= 0.1 * v.x();
+  const auto normal = [&](int k) {
+    const int surface = plan.phases[k].contacts[left_foot].surface;
+    return mcplan::Polygon(plan.scene.surfaces[surface].vertices_W).normal_W();
+  };
+  const auto at = [&](double t) { return mcplan::sole_normals(plan, t)[left_foot]; };
+  CHECK((at((kSwing - 0.5) * kPhase) - normal(kSwing - 1)).norm() < 1e-12);
+  CHECK((at((kSwing + 1.5) * kPhase) - normal(kSwing + 1)).norm() < 1e-12);
+  for (const double s : {0.2, 0.5, 0.9}) {
+    const Vector3d between = (1.0 - s) * normal(kSwing - 1) + s * normal(kSwing + 1);
+    CHECK((at((kSwing + s) * kPhase) - between.normalized()).norm() < 1e-9);
+  }
+  CHECK((mcplan::sole_normals(plan, plan.duration())[left_foot] -
+         mcplan::Polygon(plan.scene.surfaces[plan.final_contacts[left_foot]].vertices_W).normal_W())
+            .norm() < 1e-12);
+}
+
+TEST_CASE("a sole that lies on a slope and bears nothing yet is no level one in the slope") {
+  Plan plan = rest_of_swing(step_on_the_spot(), 0.37);
+  const Vector3d tilted = Vector3d(-0.2, 0.0, 1.0).normalized();
+  mcplan::choose_swings(plan, true, {}, std::vector<Vector3d>(plan.end_effector_count(), tilted));
+  CHECK((of(plan, left_foot).lift_normal_W - tilted).norm() < 1e-15);
+  CHECK(of(plan, left_foot).elapsed_s == 0.0);
+  const auto solids = mcplan::solids_of(plan.scene);
+  CHECK((mcplan::free_stretches(plan, solids, left_foot)[0].lift_normal_W - tilted).norm() < 1e-12);
+  mcplan::choose_swings(plan, true, {});
+  CHECK(mcplan::free_stretches(plan, solids, left_foot)[0].lift_normal_W == Vector3d(Vector3d::UnitZ()));
+}

@@ -240,6 +240,7 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   now.measured = completed(given, previous, t, scene_in, robot);
   const Rest planned = rest_of(previous, t);
   now.under_way = swings_under_way(previous, t);
+  now.normals_W = sole_normals(previous, t);
   now.pushed_W = now.measured.state.com_velocity_W - planned.plan.knots.front().com_velocity_W;
   Rest rest = planned;
   rename(rest, scene_in);

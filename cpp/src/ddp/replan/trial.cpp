@@ -191,7 +191,7 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   trial.evaluation = search.evaluate(at, tuning);
   const Stopwatch watch(report.timing_s, "check");
   trial.plan = to_plan(problem, at, false);
-  choose_swings(trial.plan, true, now.under_way);
+  choose_swings(trial.plan, true, now.under_way, now.normals_W);
   trial.plan.start_slack_s = now.options->start_slack_s * now.similarity.time;
   put_back(trial.plan, *now.scene, now.surfaces);
   if (rest.free_end) end_there(trial.plan);
@@ -212,7 +212,7 @@ Trial as_planned(const Rest& planned, const Now& now) {
   trial.plan = planned.plan;
   trial.phases = planned.size();
   trial.plan.measured_start = true;
-  choose_swings(trial.plan, true, now.under_way);
+  choose_swings(trial.plan, true, now.under_way, now.normals_W);
   trial.exact = true;
   trial.ending = Ending::time_limit;
   trial.check = look(trial.plan, *now.robot, now, two_steps_s(trial.plan), {});

@@ -24,6 +24,7 @@ struct Now {
   Similarity similarity;
   Eigen::Vector3d pushed_W = Eigen::Vector3d::Zero();  ///< [m/s] velocity of the CoM, measured minus planned
   std::vector<Swing> under_way = {};                   ///< of the plan under way, for what is in the air
+  std::vector<Eigen::Vector3d> normals_W = {};         ///< of its soles
   const Robot* given_robot = nullptr;  ///< whose the plan is, where it is planned with narrower limits than its own
 };
 
