@@ -23,8 +23,12 @@ std::optional<Impossible> part_in_solid(const Scene& scene, const Robot& robot, 
     const double allowed_m = (tolerances.clearance + tolerances.boundary + 2.0 * tolerances.dynamics) * length +
                              (3.0 * tolerances.boundary + tolerances.orientation) * lever;
     const Vector3d from = at.com_W + r * part.from_B, along = r * (part.to_B - part.from_B);
+    Eigen::AlignedBox3d around(from);
+    around.extend(Vector3d(from + along));
     for (const Surface& surface : scene.surfaces) {
       const Polygon polygon(surface.vertices_W);
+      const Eigen::AlignedBox3d box = box_of({polygon, surface.thickness});
+      if (box.squaredExteriorDistance(around) >= part.radius * part.radius) continue;  // most, where there are many
       const double s = nearest_on_line(polygon, surface.thickness, from, along);
       const double depth_m =
           part.radius - std::max(outside_solid(polygon, surface.thickness, from + s * along).distance, 0.0);
