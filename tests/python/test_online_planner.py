@@ -150,10 +150,19 @@ def test_what_a_replan_keeps_of_an_accepted_plan_is_not_looked_at_again(monkeypa
             update = planner.wait()
             assert update.status == "solved"
             planner.take_over(update)
-    # The first plan came from a file or a search: the planner does not know what the checker says of it.
+    # The first plan came from a file or a search: the planner does not know what the checker says of it,
     first, second = looked_s
     assert first[0] == first[2] and second[0] < second[2]
     assert second[1] == second[2] and mp.check(update.plan).ok()
+    # but where it is told, which says nothing of plans that it takes over later.
+    with Planner(plan, horizon=6, previous_accepted=True) as planner:
+        planner.submit(state(plan, 0.6, clock_s=0.6))
+        update = planner.wait()
+        planner.take_over(replace(update, status="acceptable"))
+        planner.submit(state(update.plan, 0.1, clock_s=0.7))
+        planner.wait()
+    told, taken_over = looked_s[2:]
+    assert told[0] < told[2] and taken_over[0] == taken_over[2]
 
 
 def test_a_state_that_waits_is_replaced_by_a_later_one(plan):

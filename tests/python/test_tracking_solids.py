@@ -38,3 +38,16 @@ def test_names_and_columns_are_the_scenes_surfaces():
     solids = Solids(scene(np.eye(3), np.zeros(3)))
     assert solids.names == ["box", "ground"]
     assert solids.clearances([[0.0, 0.0, 0.02]]) == pytest.approx(np.array([[0.02, 5.02]]))
+
+
+def test_of_solids_that_are_far_the_nearest_is_looked_at():
+    scene = mp.load_scene("stepping_stones")
+    solids = Solids(scene)
+    for point in ([0.3, 0.0, 0.05], [50.0, 0.0, 0.0], [0.0, 0.0, 9.0]):
+        points = np.array([point])
+        near = solids.near(points, 0.5)
+        every, some = solids.clearances(points)[0], solids.clearances(points, near)[0]
+        assert len(near) > 0 and (some[near] == every[near]).all()
+        left_out = np.setdiff1d(np.arange(len(every)), near)
+        assert np.isinf(some[left_out]).all() and (every[left_out] > -1e-12).all()
+    assert len(solids.near(np.array([[0.3, 0.0, 0.05]]), 0.5)) < len(solids.names)

@@ -46,7 +46,7 @@ PlanResult first_usable(const Question& question) {
       with_planned_height(std::move(measured.state), *question.plan, t_now, question.options.height_margin_m);
   std::optional<PlanResult> found;
   ddp::ReplanOptions options = question.options.replan;
-  options.previous_accepted = options.previous_accepted || question.accepted;
+  options.previous_accepted = question.accepted;
   for (const Robot& robot : *question.robots) {
     PlanResult result = ddp::replan(*question.plan, t, measured, scene, robot, options);
     options.crossing = true;  // those after the first are for emergencies
@@ -96,7 +96,8 @@ struct Planner::Work {
         begins_s(began_s),
         own_robot(std::make_shared<const std::vector<Robot>>(1, under_way->robot)),
         robots(own_robot),
-        options(std::move(given)) {
+        options(std::move(given)),
+        accepted(options.replan.previous_accepted) {
     const StopRequest asked = options.replan.search.stop;
     options.replan.search.stop = [this, asked] { return closed.load() || (asked && asked()); };
   }
@@ -127,11 +128,11 @@ struct Planner::Work {
   std::atomic<bool> closed = false;
   std::shared_ptr<const Plan> under_way;
   double begins_s;
-  bool accepted = false;  // by the checker
   std::shared_ptr<const Scene> scene;
   const std::shared_ptr<const std::vector<Robot>> own_robot;  // of the first plan
   std::shared_ptr<const std::vector<Robot>> robots;
   PlannerOptions options;
+  bool accepted;  // by the checker: of the first plan what the options say, then what its status does
   std::thread thread;
 };
 

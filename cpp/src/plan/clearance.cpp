@@ -113,7 +113,7 @@ std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Soli
 double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector, const FreeStretch& stretch,
                        double s, const Vector3d& position_W, double yaw) {
   const bool middle = s > 0.1 && s < 0.9;
-  const Vector3d normal = (1.0 - s) * stretch.lift_normal_W + s * stretch.land_normal_W;
+  const Vector3d normal = stretch.normal(s);
   // Half way between opposite walls there is no normal to turn to; the point alone counts there.
   const double length = normal.norm();
   const double half_diagonal = end_effector.half_size.norm();

@@ -44,6 +44,10 @@ struct FreeStretch {
 
   /// s = 0..1 of the whole swing at so long [s] after the stretch has begun.
   double ratio(double since_start_s) const { return (before_s + since_start_s) / (before_s + duration_s); }
+
+  /// The sole's normal there, whose length is not 1: it turns from the one to the other, and vanishes half way between
+  /// opposite ones.
+  Eigen::Vector3d normal(double s) const { return (1.0 - s) * lift_normal_W + s * land_normal_W; }
 };
 
 /// For how long a swing has been under way at the plan's start, as far as it counts [s]: what the plan says, which

@@ -92,7 +92,9 @@ struct Fields<Swing> {
       field("first_phase", &Swing::first_phase, "", "Index of the first of the phases.").required(),
       field("end_phase", &Swing::end_phase, "", "Index of the phase after the last of them.").required(),
       field("height", &Swing::height, "m", "How far it is lifted off the straight path.").required(),
-      field("lift_normal_W", &Swing::lift_normal_W, "-", "Unit normal of the surface it leaves.").required(),
+      field("lift_normal_W", &Swing::lift_normal_W, "-",
+            "Unit normal of the surface it leaves; of a sole in the air at the plan's start the sole's.")
+          .required(),
       field("land_normal_W", &Swing::land_normal_W, "-", "Unit normal of the surface it reaches.").required(),
       field("elapsed_s", &Swing::elapsed_s, "s",
             "Time since lift-off at the plan's start, of a swing that is under way there; 0: it begins in the plan.")

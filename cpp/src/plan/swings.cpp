@@ -118,7 +118,7 @@ std::vector<Eigen::Vector3d> sole_normals(const Plan& plan, double t) {
     for (const FreeStretch& stretch : free_stretches(plan, solids, e, plan.robot, similarity)) {
       if (k < stretch.first_phase || k >= stretch.end_phase) continue;
       const double s = std::clamp(stretch.ratio(t - stretch.start_s), 0.0, 1.0);
-      const Eigen::Vector3d normal = (1.0 - s) * stretch.lift_normal_W + s * stretch.land_normal_W;
+      const Eigen::Vector3d normal = stretch.normal(s);
       if (normal.norm() > 1e-6) out[e] = normal.normalized();
     }
   }

@@ -11,9 +11,9 @@ namespace mcplan {
 /// scene (the one that goes in least, if none does). An end-effector that neither leaves nor reaches a surface gets
 /// height 0. One that is on its way at a measured start goes on as the swing of its end-effector in `under_way`, if
 /// that clears the scene, and else is lifted anew by as little as does; without such a swing it has height 0 at first.
-/// `normals_W`, by end-effector: of soles that are in the air at a measured start; left out: upright.
 /// Without `heights` the others have the robot's, clear or not, which takes no time. Throws InvalidPlan where the rest
-/// of the plan does not fit together.
+/// of the plan does not fit together. `normals_W`, by end-effector: how soles are tilted that are in the air at a
+/// measured start; left out: not at all.
 void choose_swings(Plan& plan, bool heights = true, const std::vector<Swing>& under_way = {},
                    const std::vector<Eigen::Vector3d>& normals_W = {});
 

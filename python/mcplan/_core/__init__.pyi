@@ -1369,7 +1369,7 @@ class Swing:
     @property
     def lift_normal_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        [-] Unit normal of the surface it leaves.
+        [-] Unit normal of the surface it leaves; of a sole in the air at the plan's start the sole's.
         """
     @lift_normal_W.setter
     def lift_normal_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...

@@ -101,7 +101,8 @@ class Planner:
         height_margin_m: Where the CoM's height is off the planned one by less than this [m], new plans begin at the latter: a
             controller holds it with a small error, a robot with a payload for example hangs lower, and plan after plan
             that begins there sinks. 0: as measured.
-        **named: Options of mcplan.replan by name, among them ``time_limit`` [s]. ``recovery_first`` is on here.
+        **named: Options of mcplan.replan by name, among them ``time_limit`` [s]. ``recovery_first`` is on here;
+            ``previous_accepted`` is about ``plan`` alone, what is taken over says by its status whether it was accepted.
 
     Attributes:
         command: May be changed at any time; it holds for what is computed from then on.
@@ -134,7 +135,8 @@ class Planner:
             raise InvalidOptions("height_margin_m", "must be 0 at least", shown(height_margin_m))
         command_of(command)
         replan_options(named)
-        self._under_way: UnderWay = plan, float(begins_s), False  # one object, as all change at once beside the thread
+        # One object, as all of it changes at once beside the thread.
+        self._under_way: UnderWay = plan, float(begins_s), bool(named.get("previous_accepted", False))
         self.command, self.period_s, self._height_margin_m = command, period_s, float(height_margin_m)
         self.scene: Scene | None = None
         self.robots: list[Robot] = [plan.robot]
@@ -234,7 +236,7 @@ class Planner:
             knot = with_planned_height(state.knot, plan, t_now, self._height_margin_m)
             for i, robot in enumerate(self.robots):
                 # While it is pushed, every new plan takes the push for over. Robots after the first are for emergencies.
-                told = {"recovery_first": True, "crossing": i > 0, "previous_accepted": accepted, **named}
+                told = {"recovery_first": True, "crossing": i > 0, **named, "previous_accepted": accepted}
                 result = replan(plan, t, knot, state.contacts, self.command, self.scene, robot, told)
                 usable = follows(result.report, self.period_s)
                 if found is None or (usable and not follows(found.report, self.period_s)):

@@ -35,10 +35,10 @@ class Solids:
             self._boxes[i] = corners.min(axis=0), corners.max(axis=0)
 
     def near(self, points_W: Array, within_m: float) -> NDArray[np.int64]:
-        """Indices of solids whose box comes so near to that of the points, or of the nearest one: where there are hundreds."""
+        """Indices of the solids whose box comes so near to that of the points (k, 3) [m]; where none does, the nearest one's."""
         low, high = np.min(points_W, axis=0), np.max(points_W, axis=0)
         gaps = np.maximum(self._boxes[:, 0] - high, low - self._boxes[:, 1]).max(axis=1, initial=0.0)
-        return np.flatnonzero(gaps <= max(within_m, float(gaps.min(initial=0.0))))
+        return np.flatnonzero(gaps <= max(within_m, float(gaps.min(initial=np.inf))))
 
     def clearances(self, points_W: Array, only: NDArray[np.int64] | None = None) -> Array:
         """Distance of points from every solid.

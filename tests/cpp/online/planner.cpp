@@ -113,6 +113,19 @@ TEST_CASE("what the planner's thread keeps of a plan that was solved is not look
   REQUIRE((second && second->result && second->result->report.status == Status::solved));
   CHECK(second->result->report.checked_until_s < second->result->plan.duration());
   CHECK(check(second->result->plan, plan.scene, plan.robot).ok());
+  // What the options say is about the first plan alone.
+  options.replan.previous_accepted = true;
+  Planner told(plan, 0.0, options);
+  told.submit(state(plan, 0.6, 0.6));
+  std::optional<Update> update = told.wait();
+  REQUIRE((update && update->result));
+  CHECK(update->result->report.checked_until_s < update->result->plan.duration());
+  update->result->report.status = Status::acceptable;
+  told.take_over(*update);
+  told.submit(state(update->result->plan, 0.1, 0.7));
+  update = told.wait();
+  REQUIRE((update && update->result));
+  CHECK(update->result->report.checked_until_s == update->result->plan.duration());
 }
 
 TEST_CASE("a state that waits for the planner's thread is replaced by a later one") {

@@ -41,7 +41,8 @@ inline ddp::ReplanOptions beside_a_controller() {
 
 /// How to replan beside a controller.
 struct PlannerOptions {
-  ddp::ReplanOptions replan = beside_a_controller();  ///< its command holds until it is changed
+  ddp::ReplanOptions replan = beside_a_controller();  ///< its command holds until it is changed,
+                                                      ///< previous_accepted for the first plan
   double period_s = 0.1;                              ///< how often states are submitted
   double height_margin_m = kHeightMargin_m;           ///< up to which plans begin at the planned height, 0: as measured
 

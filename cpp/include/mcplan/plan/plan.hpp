@@ -83,6 +83,7 @@ struct Swing {
   int end_effector = 0;
   int first_phase = 0, end_phase = 0;  ///< phases first_phase .. end_phase - 1
   double height = 0.0;                 ///< [m]
+  /// Of the surface it leaves; of a sole that is in the air at the plan's start, and lifted from there, the sole's.
   Eigen::Vector3d lift_normal_W = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d land_normal_W = Eigen::Vector3d::UnitZ();
   double elapsed_s = 0.0;  ///< [s] since lift-off, at the plan's start; 0 where the swing begins in the plan

@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 
 /// A ball about the CoM stays out of the solids that stand about the way (not in the paper): distance of the CoM at
 /// least kTrunkRadius, at the knots and between them. So do the parts of the robot's own trunk: distance of a part's
-/// line p + R(theta) (from + s (to - from)), 0 <= s <= 1, at least room_about(), or
-/// what there is at the start or the goal.
+/// line p + R(theta) (from + s (to - from)), 0 <= s <= 1, at least room_about(), or what there is at the start or the
+/// goal.
 class TrunkTerm final : public CostTerm {
  public:
   TrunkTerm() : CostTerm("trunk", Scope::step, 40) {}
