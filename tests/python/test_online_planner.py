@@ -15,7 +15,7 @@ import mcplan as mp
 import mcplan.online.planner as planner_module
 from mcplan import solve
 from mcplan.errors import InvalidArgument
-from mcplan.online import MeasuredState, OnlineOptions, Planner
+from mcplan.online import FeltPush, MeasuredState, OnlineOptions, Planner
 from mcplan.online.pacing import Pace, distances, steps_left
 from mcplan.online.planner import Update, with_feet_kept_up
 from mcplan.online.reach import widened
@@ -53,6 +53,20 @@ def test_what_is_submitted_comes_back_as_the_plan_that_replan_makes(plan):
     assert update.ticket == ticket == 1 and update.usable and update.begins_s == 1.0
     assert update.status == expected.report.status.name and update.plan.knots == expected.plan.knots
     assert update.kept_until_s == 1.0 + expected.report.kept_until_s and update.took_s > 0.0
+
+
+def test_a_plan_for_a_robot_that_is_pushed_begins_beside_it_and_says_how_far(plan):
+    measured = state(plan, 1.0)
+    pushed = replace(measured, push=FeltPush(acceleration_W=[0.2, -0.5], lasted_s=0.1))
+    before = measured.knot.__copy__()
+    with Planner(plan) as planner:
+        planner.submit(pushed)
+        update = planner.wait()
+    omega_squared = plan.scene.gravity / plan.robot.com_height
+    shift_W = (1.0 - np.exp(-np.sqrt(omega_squared) * 0.2)) / omega_squared * np.array([0.2, -0.5, 0.0])
+    np.testing.assert_allclose(update.com_shift_W, shift_W, rtol=1e-9)
+    np.testing.assert_allclose(update.plan.at(0.0).com_W, measured.knot.com_W + shift_W, atol=1e-9)
+    assert measured.knot == before  # what was submitted stays as it is
 
 
 def test_a_robot_that_hangs_a_little_lower_than_planned_goes_on_from_the_planned_height(plan):
@@ -264,6 +278,7 @@ def test_a_state_that_is_refused_leaves_the_plan_and_the_thread_alone(plan):
         (MeasuredState(np.nan, mp.model.Knot(), (0, 0)), "state.time_s"),
         (MeasuredState(0.0, mp.model.Knot(), "left"), "state.contacts"),
         (MeasuredState(0.0, mp.model.Knot(), None), "state.contacts"),
+        (MeasuredState(0.0, mp.model.Knot(), (0, 0), (1.0, 0.0)), "state.push"),
     ],
 )
 def test_what_is_no_state_is_refused_when_it_is_submitted(plan, wrong, field):

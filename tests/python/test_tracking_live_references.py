@@ -68,7 +68,7 @@ def test_a_plan_that_is_shifted_in_place_and_time_is_taken_over_without_a_jump(r
     plan, gains = wrenches.turning(robot), Gains()
     before = LiveReferences(plan, robot, DT, 0.0)
     step = round(0.3 / DT)
-    after = LiveReferences.after(before, step, plan, robot, -0.05, gains)  # 50 ms ahead of it
+    after = LiveReferences(plan, robot, before.dt_s, -0.05).taken_over(before, step, gains)  # 50 ms ahead of it
     raw = LiveReferences(plan, robot, DT, -0.05)
     for value, rate in (
         ("com_W", "com_velocity_W"),
@@ -89,7 +89,7 @@ def test_what_decays_is_what_the_controller_would_correct(robot):
     """Following the blended reference asks for the acceleration that following the new plan itself asks for."""
     plan, gains = wrenches.turning(robot), Gains()
     before, step = LiveReferences(plan, robot, DT, 0.0), round(0.3 / DT)
-    after = LiveReferences.after(before, step, plan, robot, -0.05, gains)
+    after = LiveReferences(plan, robot, before.dt_s, -0.05).taken_over(before, step, gains)
     raw = LiveReferences(plan, robot, DT, -0.05)
     x, v = np.array([0.1, 0.02, 0.8]), np.array([0.3, -0.1, 0.0])  # any state
     for n in (step, step + 40, step + 300):
@@ -125,7 +125,7 @@ def test_a_sole_that_turns_lands_as_planned_though_plans_are_made_anew_all_the_t
         knot.end_effector_yaw = yaws  # a robot that does as the references say
         plan = mp.replan(plan, n * DT - t0, knot, contacts=contacts, command=command, committed_s=1.0).plan
         t0 = n * DT
-        live = LiveReferences.after(live, n, plan, robot, t0, Gains())
+        live = LiveReferences(plan, robot, live.dt_s, t0).taken_over(live, n, Gains())
         if swinging:
             landing = next(i for i, phase in enumerate(plan.phases) if phase.contacts[swinging[0]].surface >= 0)
             goal = plan.knots[landing].end_effector_yaw[swinging[0]]

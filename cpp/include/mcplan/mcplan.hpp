@@ -17,6 +17,7 @@
 #include "mcplan/nlp/piece.hpp"
 #include "mcplan/nlp/problem.hpp"
 #include "mcplan/nlp/solver.hpp"
+#include "mcplan/online/felt_push.hpp"
 #include "mcplan/online/following.hpp"
 #include "mcplan/online/planned_height.hpp"
 #include "mcplan/online/planner.hpp"

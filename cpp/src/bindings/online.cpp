@@ -1,8 +1,7 @@
-#include <pybind11/stl.h>
-
-#include "bindings.hpp"
+#include "fields.hpp"
 #include "mcplan/online/following.hpp"
 #include "mcplan/online/planned_height.hpp"
+#include "online/felt_push_fields.hpp"
 
 namespace mcplan::bindings {
 
@@ -23,6 +22,21 @@ void bind_online(py::module_& parent) {
         py::arg("margin_m") = online::kHeightMargin_m,
         "The state from which to plan on at time t [s] in the plan under way: the measured one, but with height and "
         "vertical velocity of the CoM as planned where they are off by less than a margin [m].");
+  bind_fields<online::FeltPush>(m);
+  m.def(
+      "com_shift_W", &online::com_shift_W, py::arg("push"), py::arg("omega"),
+      "How far beside the measured CoM to plan from while a push is felt, (3,) [m], for a pendulum of frequency omega "
+      "[1/s]; references of the CoM are as far on the other side of the plan's. Raises InvalidInput.");
+  py::class_<online::PushObserver>(m, "PushObserver",
+                                   "Feels pushes by the CoM's velocity against what the controller's model promised.")
+      .def(py::init<>())
+      .def(
+          "update", &online::PushObserver::update, py::arg("velocity_W"), py::arg("promised_W").none(true),
+          py::arg("dt_s"),
+          "What is felt at this control step: velocity of the CoM on the level (2,) [m/s], its acceleration since the "
+          "last call by the model (2,) [m/s^2] or None where contacts were others than the model thought, and the time "
+          "since the last call [s].")
+      .def_property_readonly("push", &online::PushObserver::push, "The FeltPush of the last call.");
 }
 
 }  // namespace mcplan::bindings

@@ -34,7 +34,8 @@ struct Question {
   PlannerOptions options;
 };
 
-PlanResult first_usable(const Question& question) {
+/// The plan, from beside the measured CoM by a shift.
+PlanResult first_usable(const Question& question, const Eigen::Vector3d& shift_W) {
   const double t_now = question.state.time_s - question.begins_s, t = std::clamp(t_now, 0.0, question.plan->duration());
   if (t_now < -question.options.period_s)
     throw InvalidInput("state.time_s",
@@ -42,6 +43,7 @@ PlanResult first_usable(const Question& question) {
                        std::to_string(question.state.time_s));
   const Scene& scene = question.scene ? *question.scene : question.plan->scene;
   ddp::Measured measured = question.state.measured;
+  measured.state.com_W += shift_W;
   measured.state =
       with_planned_height(std::move(measured.state), *question.plan, t_now, question.options.height_margin_m);
   std::optional<PlanResult> found;
@@ -70,7 +72,10 @@ Update answer(const Question& question) {
   out.ticket = question.ticket;
   out.begins_s = out.kept_until_s = question.state.time_s;
   try {
-    out.result = first_usable(question);
+    const Robot& robot = question.plan->robot;
+    const Scene& scene = question.scene ? *question.scene : question.plan->scene;
+    out.com_shift_W = com_shift_W(question.state.push, std::sqrt(scene.gravity / robot.com_height));
+    out.result = first_usable(question, out.com_shift_W);
     out.usable = follows(out.result->report, question.options.period_s);
     out.kept_until_s += out.result->report.kept_until_s;
   } catch (const std::exception& error) {  // a state that is refused must not end the thread: the plan goes on

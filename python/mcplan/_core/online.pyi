@@ -4,9 +4,79 @@ Planning while the robot walks: what to do with a replan's plan.
 
 from __future__ import annotations
 import mcplan._core
+import numpy
+import numpy.typing
 import typing
 
-__all__: list[str] = ["HEIGHT_MARGIN_M", "follows", "with_feet_kept_up", "with_planned_height"]
+__all__: list[str] = [
+    "FeltPush",
+    "HEIGHT_MARGIN_M",
+    "PushObserver",
+    "com_shift_W",
+    "follows",
+    "with_feet_kept_up",
+    "with_planned_height",
+]
+
+class FeltPush:
+    """
+    What pushes a robot to a side, as its controller feels it.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> FeltPush: ...
+    def __deepcopy__(self, memo: dict) -> FeltPush: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        acceleration_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        lasted_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def acceleration_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m/s^2] Of the CoM on the level, which the controller's model does not explain.
+        """
+    @acceleration_W.setter
+    def acceleration_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def lasted_s(self) -> float:
+        """
+        [s] Time for which it has been felt.
+        """
+    @lasted_s.setter
+    def lasted_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class PushObserver:
+    """
+    Feels pushes by the CoM's velocity against what the controller's model promised.
+    """
+    def __init__(self) -> None: ...
+    def update(
+        self,
+        velocity_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"],
+        promised_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] | None,
+        dt_s: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> FeltPush:
+        """
+        What is felt at this control step: velocity of the CoM on the level (2,) [m/s], its acceleration since the last call by the model (2,) [m/s^2] or None where contacts were others than the model thought, and the time since the last call [s].
+        """
+    @property
+    def push(self) -> FeltPush:
+        """
+        The FeltPush of the last call.
+        """
+
+def com_shift_W(
+    push: FeltPush, omega: typing.SupportsFloat | typing.SupportsIndex
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+    """
+    How far beside the measured CoM to plan from while a push is felt, (3,) [m], for a pendulum of frequency omega [1/s]; references of the CoM are as far on the other side of the plan's. Raises InvalidInput.
+    """
 
 def follows(report: mcplan._core.Report, period_s: typing.SupportsFloat | typing.SupportsIndex) -> bool:
     """

@@ -13,6 +13,8 @@ docs/online.md says how to wire it to a robot.
 
 from __future__ import annotations
 
+from mcplan._core.online import FeltPush, PushObserver
+
 from .contacts import ContactFilter
 from .horizon_planner import HorizonPlanner
 from .measures import OnlineMeasures
@@ -23,11 +25,13 @@ from .steering import Asked
 __all__ = [
     "Asked",
     "ContactFilter",
+    "FeltPush",
     "HorizonPlanner",
     "MeasuredState",
     "OnlineMeasures",
     "OnlineOptions",
     "Planner",
+    "PushObserver",
     "RunResult",
     "StateReader",
     "Update",

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan._core import Plan, Scene
+from mcplan._core.online import com_shift_W
 from mcplan.errors import InvalidInput
 from mcplan.tracking.interruption import Interruption
 from mcplan.tracking.measures import at_torque_limit, measure, with_touches
@@ -97,6 +98,7 @@ class Loop:
         self.actual = RobotDynamics(self.urdf_model)
         weight_N = self.actual.mass * plan.scene.gravity
         self.contact_N = CONTACT_RATIO * weight_N
+        self.omega = np.sqrt(plan.scene.gravity / plan.robot.com_height)
         standing = desired.surfaces[0] >= 0
         self.true_scene = true_scene
         self.ground = KnownGround(plan.scene, true_scene, online, len(standing), PRESSES_RATIO * weight_N)
@@ -207,11 +209,10 @@ class Loop:
 
     def _ask(self, now_s: float, read: tuple[Array, Array], standing: NDArray[np.bool_], touchdown: bool) -> None:
         """Submit the state if a replan is due. The simulation waits, its clock goes on by the latency."""
-        under_way, com_W, velocity_W = (
-            self.plan,
-            self.controller.dynamics.com_W,
-            self.controller.dynamics.com_velocity_W,
-        )
+        under_way, push = self.plan, self.controller.unknown.push
+        # Plans begin beside the measured CoM while a push is felt: it is there that the robot leaves them or does not.
+        com_W = self.controller.dynamics.com_W + com_shift_W(push, self.omega)
+        velocity_W = self.controller.dynamics.com_velocity_W
         t = now_s - under_way.begins_s
         self._set_goal(now_s)
         self.pace.new_goal = self.aim.open
@@ -220,6 +221,7 @@ class Loop:
         if reason is None:
             return
         state = self.reader.read(now_s, *read, self._for_planner(standing), under_way.plan, t)
+        state = replace(state, push=push)
         heading = float(state.knot.base_rpy[2])
         self.planner.command = self._command(now_s, com_W, heading)
         told = self.ground.told(now_s)
@@ -316,7 +318,7 @@ class Loop:
             return
         stands = update.plan_from in ("recovery", "stop") or self.planner.command == STAND
         self.failing_s, self.stopping, self.other_ground = np.inf, False, False
-        self.controller.set_plan(update.plan, update.begins_s)
+        self.controller.set_plan(update.plan, update.begins_s, np.array(update.com_shift_W))
         self.planner.take_over(update)
         if self.online.command_at(now_s) is None and stands:
             self.aim.stopped(now_s, self.controller.dynamics.com_W, self._heading())

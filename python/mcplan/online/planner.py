@@ -15,7 +15,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mcplan._core import Knot, Plan, PlanFrom, Status
-from mcplan._core.online import HEIGHT_MARGIN_M, follows, with_feet_kept_up, with_planned_height
+from mcplan._core.online import (
+    HEIGHT_MARGIN_M,
+    FeltPush,
+    com_shift_W,
+    follows,
+    with_feet_kept_up,
+    with_planned_height,
+)
 from mcplan.arguments import require, require_number
 from mcplan.errors import InvalidInput, InvalidOptions, shown
 from mcplan.solve import command_of, replan, replan_options
@@ -34,11 +41,13 @@ class MeasuredState:
         time_s: On the clock of the controller.
         knot: CoM, base, momentum and end-effectors.
         contacts: Surface that each end-effector touches, -1: none; indices into the plan's scene.
+        push: What pushes the robot, felt by a PushObserver; None: nothing is known to.
     """
 
     time_s: float
     knot: Knot
     contacts: tuple[int, ...]
+    push: FeltPush | None = None
 
 
 def _require_state(state: MeasuredState) -> None:
@@ -51,6 +60,8 @@ def _require_state(state: MeasuredState) -> None:
         raise InvalidInput("state.time_s", "must be a finite number", shown(state.time_s))
     if isinstance(state.contacts, (str, bytes)) or not isinstance(state.contacts, Sequence | np.ndarray):
         raise InvalidInput("state.contacts", "must be a surface, or -1, for each end-effector", shown(state.contacts))
+    if state.push is not None and not isinstance(state.push, FeltPush):
+        raise InvalidInput("state.push", "must be a FeltPush or None", shown(state.push))
 
 
 @dataclass(frozen=True)
@@ -67,6 +78,8 @@ class Update:
         message: What the planner says.
         plan_from: Where the plan comes from.
         ticket: Number of the submitted state, counted from 1.
+        com_shift_W: What the plan's CoM is beside the robot's [m], while it is pushed: references of the CoM are the plan's
+            less this.
     """
 
     plan: Plan | None
@@ -78,6 +91,7 @@ class Update:
     message: str
     plan_from: str
     ticket: int
+    com_shift_W: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 #: The plan under way, when it began [s], and whether the checker has accepted it to its end.
@@ -233,7 +247,8 @@ class Planner:
                     "state.time_s", f"must be no earlier than the plan under way, {begins_s:.6g}", shown(state.time_s)
                 )
             t = min(max(t_now, 0.0), float(plan.duration()))
-            knot = with_planned_height(state.knot, plan, t_now, self._height_margin_m)
+            knot, shift_W = self._beside(state, plan)
+            knot = with_planned_height(knot, plan, t_now, self._height_margin_m)
             for i, robot in enumerate(self.robots):
                 # While it is pushed, every new plan takes the push for over. Robots after the first are for emergencies.
                 told = {"recovery_first": True, "crossing": i > 0, **named, "previous_accepted": accepted}
@@ -266,7 +281,16 @@ class Planner:
             message=report.message,
             plan_from=report.plan_from.name,
             ticket=ticket,
+            com_shift_W=shift_W,
         )
+
+    def _beside(self, state: MeasuredState, plan: Plan) -> tuple[Knot, tuple[float, float, float]]:
+        """The state to plan from while a push is felt, and how far its CoM is beside the measured one (3,) [m]."""
+        gravity = plan.scene.gravity if self.scene is None else self.scene.gravity
+        shift_W = com_shift_W(state.push or FeltPush(), np.sqrt(gravity / plan.robot.com_height))
+        knot = state.knot.__copy__()
+        knot.com_W = knot.com_W + shift_W
+        return knot, (float(shift_W[0]), float(shift_W[1]), float(shift_W[2]))
 
 
 #: Threads of planners and what ends them.

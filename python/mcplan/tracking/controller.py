@@ -30,7 +30,7 @@ from .quadratic_program import Problem, QuadraticProgram
 from .references import References
 from .robot_dynamics import EndEffectorMotion, RobotDynamics
 from .separation import Separation
-from .unknown_load import UnknownLoad
+from .unknown_forces import UnknownForces
 
 if TYPE_CHECKING:
     from mcplan._core import Plan, Scene
@@ -111,8 +111,7 @@ class Controller:
         self.soles = [corners(end.half_size) for end in urdf_model.robot.end_effectors]
         self.feet = [end.kind == "foot" for end in urdf_model.robot.end_effectors]
         self.contacts, self._late = [Contact() for _ in self.points], LateLandings()
-        self.load = UnknownLoad(references.dt_s)
-        self.qp = QuadraticProgram()
+        self.qp, self.unknown = QuadraticProgram(), UnknownForces(references.dt_s)
         self.torques = np.zeros(self.nv - 6)
         self.surfaces = [np.asarray(s.vertices_W, float) for s in scene.surfaces]
         for end, contact in enumerate(self.contacts):
@@ -133,8 +132,7 @@ class Controller:
             self.references, n = self._live.window(n)
         self.dynamics.update(configuration, velocity)
         pressing = [contact.mode is Mode.CONTACT for contact in self.contacts]
-        as_expected = any(pressing) and np.array_equal(pressing, in_contact)
-        self.load.update(float(self.dynamics.com_velocity_W[2]), as_expected)
+        self.unknown.update(self.dynamics.com_velocity_W, any(pressing) and np.array_equal(pressing, in_contact))
         motions = [self.dynamics.end_effector(i) for i in range(len(self.contacts))]
         on_ground = self._late.update(self.contacts, list(self.references.surfaces[n] >= 0), self.references.dt_s)
         for i, (contact, planned) in enumerate(zip(self.contacts, on_ground, strict=True)):
@@ -151,10 +149,10 @@ class Controller:
             acceleration, forces = found[: self.nv], found[self.nv : self.nv + force_map.shape[1]]
             tau = self.dynamics.inertia[6:] @ acceleration + self.dynamics.bias[6:] - force_map[6:] @ forces
             self.torques = np.clip(tau, *self.motors.bounds(velocity[6:]))
-            self.load.predict(float(self.dynamics.com_jacobian[2] @ acceleration + self.dynamics.com_drift[2]))
+            self.unknown.predict(self.dynamics.com_jacobian @ acceleration + self.dynamics.com_drift)
         return Command(self.torques, found is not None)
 
-    def set_plan(self, plan: Plan, t0: float) -> None:
+    def set_plan(self, plan: Plan, t0: float, com_shift_W: Array | None = None) -> None:
         """Follow another plan from the next control step on.
 
         Contacts, force points and the last torques stay. References go on without a jump of position or velocity; what the
@@ -164,11 +162,13 @@ class Controller:
         Args:
             plan: The plan, of the same scene's surfaces and the same end-effectors.
             t0: Time of control step 0 plus this is the plan's start [s]: step n is at n dt - t0 of the plan.
+            com_shift_W: (3,) by which the plan's CoM is beside the robot's [m]; None: it is not.
         """
         if self.joints.timed:  # joints of a motion, which the plan does not go on with
             self.joints = JointReferences(np.atleast_2d(self.joints.at(max(self._last, 0))[0]))
         before = self._live or LiveReferences.of(self.references)
-        self._live = LiveReferences.after(before, self._last + 1, plan, self.urdf_model.robot, t0, self.gains)
+        live = LiveReferences(plan, self.urdf_model.robot, before.dt_s, t0, com_shift_W)
+        self._live = live.taken_over(before, self._last + 1, self.gains)
 
     def set_friction(self, surface: int, friction: float) -> None:
         """Keep forces on a surface, by index, within another friction coefficient; feet that slip stay where they are."""
@@ -311,7 +311,7 @@ class Controller:
             gains.com_kp,
             ref.com_W[n] - dynamics.com_W,
             ref.com_velocity_W[n] - dynamics.com_velocity_W,
-            ref.com_acceleration_W[n] - np.array([0.0, 0.0, self.load.acceleration]),
+            ref.com_acceleration_W[n] - self.unknown.acceleration_W,
         )
         add(gains.com_weight, dynamics.com_jacobian, dynamics.com_drift, desired)
         rotation = rotation_vector(ref.base_WB[n] @ dynamics.base_WB.T)

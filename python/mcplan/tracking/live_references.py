@@ -40,14 +40,18 @@ class LiveReferences:
         robot: The robot whose mass scales the plan's forces and angular momentum.
         dt_s: Control step [s].
         t0: Time of the controller's clock at which the plan begins [s].
-        lifted: By end-effector that is free when the plan is taken over.
+        com_shift_W: (3,) by which the plan's CoM is beside the one to be followed [m]; None: it is not.
+
+    Attributes:
+        lifted: By end-effector that was free when the plan was taken over.
     """
 
     def __init__(
-        self, plan: Plan | None, robot: Robot | None, dt_s: float, t0: float, lifted: dict[int, Lifted] | None = None
+        self, plan: Plan | None, robot: Robot | None, dt_s: float, t0: float, com_shift_W: Array | None = None
     ) -> None:
         self.plan, self.robot, self.dt_s, self.t0 = plan, robot, dt_s, t0
-        self.lifted = lifted or {}
+        self._com_shift_W = np.zeros(3) if com_shift_W is None else np.asarray(com_shift_W, float)
+        self.lifted: dict[int, Lifted] = {}
         self._first = 0
         self._window: References | None = None
         self._intervals: list[list[Interval]] = []
@@ -67,17 +71,14 @@ class LiveReferences:
         live._window = whole
         return live
 
-    @classmethod
-    def after(
-        cls, before: LiveReferences, step: int, plan: Plan, robot: Robot, t0: float, gains: Gains
-    ) -> LiveReferences:
-        """Those of another plan, taken over at a control step."""
-        live = cls(plan, robot, before.dt_s, t0, before.lifted_at(step))
+    def taken_over(self, before: LiveReferences, step: int, gains: Gains) -> LiveReferences:
+        """These, followed from a control step on instead of those before, without a jump."""
+        self.lifted = before.lifted_at(step)
         old, k = before.window(step)
-        new, j = live.window(step)
-        live._blend = _Blend.between(step, old, k, new, j, gains)
-        live._window = live._blend.applied(new, live._first)
-        return live
+        new, j = self.window(step)
+        self._blend = _Blend.between(step, old, k, new, j, gains)
+        self._window = self._blend.applied(new, self._first)
+        return self
 
     def window(self, step: int) -> tuple[References, int]:
         """References that contain a control step, and its index there."""
@@ -145,7 +146,7 @@ class LiveReferences:
         return References(
             dt_s=dt,
             duration_s=duration,
-            com_W=found.com_W[kept],
+            com_W=found.com_W[kept] - self._com_shift_W,
             com_velocity_W=(found.com_velocity_W * still[:, None])[kept],
             com_acceleration_W=(found.com_acceleration_W * still[:, None])[kept],
             momentum_W=momentum[kept],

@@ -67,6 +67,23 @@ TEST_CASE("what is submitted comes back as the plan that replan makes, from the 
   CHECK(check(update->result->plan, update->result->plan.scene, walk().robot).ok());
 }
 
+TEST_CASE("a plan for a robot that is pushed begins beside it, and the update says how far") {
+  MeasuredState measured = state(walk(), 1.0, 1.0);
+  measured.push = {{0.2, -0.5}, 0.1};
+  Planner planner(walk());
+  planner.submit(measured);
+  const std::optional<Update> update = planner.wait();
+  REQUIRE(update);
+  REQUIRE(update->result);
+  CHECK(update->com_shift_W.y() < -0.01);
+  CHECK(update->result->plan.knots.front().com_W.isApprox(measured.measured.state.com_W + update->com_shift_W, 1e-12));
+  measured.push.lasted_s = -1.0;
+  planner.submit(measured);
+  const std::optional<Update> refused = planner.wait();
+  REQUIRE(refused);
+  CHECK(refused->error == "push.lasted_s: must be at least 0, got -1");
+}
+
 TEST_CASE("a robot that is off the planned height by little goes on from it, but for a margin of zero") {
   const MeasuredState measured = state(walk(), 1.0, 1.0, {0.0, 0.0, -0.05});
   PlannerOptions options;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mcplan/ddp/replan.hpp"
+#include "mcplan/online/felt_push.hpp"
 #include "mcplan/online/planned_height.hpp"
 
 namespace mcplan::online {
@@ -16,6 +17,7 @@ namespace mcplan::online {
 struct MeasuredState {
   double time_s = 0.0;     ///< on the clock of the controller
   ddp::Measured measured;  ///< the robot, and the surfaces that it touches
+  FeltPush push;           ///< of a PushObserver; none unless it is given
 };
 
 /// What came of a replan.
@@ -27,8 +29,10 @@ struct Update {
   double begins_s = 0.0;      ///< time of the clock at which the plan begins: that of the measured state
   double took_s = 0.0;        ///< wall clock of the computation
   double kept_until_s = 0.0;  ///< time of the clock until which all limits are kept
-  bool usable = false;        ///< whether to follow it rather than the plan under way: follows()
-  std::uint64_t ticket = 0;   ///< number of the submitted state, counted from 1
+  /// What the plan's CoM is beside the robot's: references of the CoM are the plan's less this (com_shift_W()) [m].
+  Eigen::Vector3d com_shift_W = Eigen::Vector3d::Zero();
+  bool usable = false;       ///< whether to follow it rather than the plan under way: follows()
+  std::uint64_t ticket = 0;  ///< number of the submitted state, counted from 1
 };
 
 /// Those of a replan beside a controller: steps that catch a push come first, since while the robot is pushed every new

@@ -1,0 +1,157 @@
+#include "mcplan/online/felt_push.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "mcplan/base/error.hpp"
+
+using namespace mcplan;
+using namespace mcplan::online;
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr double kStep_s = 0.002;
+constexpr double kOmega = 3.3;
+
+struct Pendulum {
+  double position = 0.0, velocity = 0.0;
+  double capture() const { return position + velocity / kOmega; }
+};
+
+/// After a time under an acceleration, on a center of pressure at 0: c'' = omega^2 c + a, by small steps.
+Pendulum after(Pendulum pendulum, double acceleration, double time_s) {
+  constexpr int kSteps = 20000;
+  const double dt = time_s / kSteps;
+  for (int n = 0; n < kSteps; ++n) {  // the midpoint rule
+    const double half = pendulum.velocity + 0.5 * dt * (kOmega * kOmega * pendulum.position + acceleration);
+    const double middle = pendulum.position + 0.5 * dt * pendulum.velocity;
+    pendulum.velocity += dt * (kOmega * kOmega * middle + acceleration);
+    pendulum.position += dt * half;
+  }
+  return pendulum;
+}
+
+FeltPush push(double acceleration, double lasted_s) { return {Vector2d(acceleration, 0.0), lasted_s}; }
+
+/// A robot that accelerates by `unknown` more than is promised.
+class Robot {
+ public:
+  explicit Robot(double noise_m_s = 0.0) : noise_m_s_(noise_m_s) {}
+
+  const FeltPush& go_on(PushObserver& observer, const Vector2d& unknown, int steps) {
+    for (int n = 0; n < steps; ++n) {
+      const Vector2d promised(std::sin(0.02 * count_), std::cos(0.03 * count_));
+      ++count_;
+      velocity_ += kStep_s * (promised + unknown);
+      observer.update(velocity_ + noise_m_s_ * Vector2d(normal_(random_), normal_(random_)), promised, kStep_s);
+    }
+    return observer.push();
+  }
+
+ private:
+  double noise_m_s_;
+  int count_ = 0;
+  Vector2d velocity_ = Vector2d::Zero();
+  std::mt19937 random_{1};
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace
+
+TEST_CASE("a pendulum that leans against a steady push moves as one beside it that is not pushed") {
+  const double acceleration = 1.2, beside = com_shift_W(push(acceleration, 100.0), kOmega).x();
+  const Pendulum pushed = after({0.01, -0.1}, acceleration, 0.5), free = after({0.01 + beside, -0.1}, 0.0, 0.5);
+  CHECK(pushed.position + beside == doctest::Approx(free.position).epsilon(1e-6));
+  CHECK(pushed.velocity == doctest::Approx(free.velocity).epsilon(1e-6));
+}
+
+TEST_CASE("a push that ends moves the capture point by what is planned for") {
+  const double acceleration = -2.7, lasts_s = 0.15;
+  const double beside = com_shift_W(push(acceleration, lasts_s / kLastsRatio), kOmega).x();
+  const Pendulum pushed = after({0.02, 0.3}, acceleration, lasts_s), free = after({0.02 + beside, 0.3}, 0.0, lasts_s);
+  CHECK(pushed.capture() == doctest::Approx(free.capture()).epsilon(1e-6));
+}
+
+TEST_CASE("the shift lies in the direction of the push, on the level, and is none where nothing pushes") {
+  CHECK(com_shift_W({}, kOmega).norm() == 0.0);
+  const Eigen::Vector3d shift_W = com_shift_W({Vector2d(0.3, -0.4), 0.1}, kOmega);
+  CHECK(shift_W.z() == 0.0);
+  CHECK(shift_W.x() / shift_W.y() == doctest::Approx(-0.75));
+  CHECK(shift_W.x() > 0.0);
+}
+
+TEST_CASE("a push that is none is refused by name") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH_AS(com_shift_W(push(nan, 0.1), kOmega), "push.acceleration_W[0]: must be a finite number, got nan",
+                       InvalidInput);
+  CHECK_THROWS_WITH_AS(com_shift_W(push(1.0, -0.5), kOmega), "push.lasted_s: must be at least 0, got -0.5",
+                       InvalidInput);
+}
+
+TEST_CASE("a push is felt, and for how long, and that it is over") {
+  PushObserver observer;
+  Robot robot;
+  CHECK(robot.go_on(observer, Vector2d::Zero(), 100).acceleration_W.norm() == 0.0);
+  const FeltPush felt = robot.go_on(observer, Vector2d(0.0, 2.0), 50);
+  CHECK(felt.acceleration_W.y() == doctest::Approx(2.0).epsilon(0.01));
+  CHECK(std::abs(felt.acceleration_W.x()) < 1e-3);
+  CHECK(felt.lasted_s > 0.08);
+  CHECK(felt.lasted_s <= 0.1);
+  const FeltPush over = robot.go_on(observer, Vector2d::Zero(), 50);
+  CHECK(over.acceleration_W.norm() == 0.0);
+  CHECK(over.lasted_s == 0.0);
+}
+
+TEST_CASE("what pushes to another side is another push") {
+  PushObserver observer;
+  Robot robot;
+  robot.go_on(observer, Vector2d(0.0, -2.4), 100);
+  CHECK(observer.push().lasted_s > 0.18);
+  SUBCASE("aslant") {
+    const FeltPush felt = robot.go_on(observer, Vector2d(0.7, 0.0), 25);
+    CHECK(felt.acceleration_W.x() == doctest::Approx(0.7).epsilon(0.05));
+    CHECK(felt.lasted_s < 0.06);
+  }
+  SUBCASE("back") { CHECK(robot.go_on(observer, Vector2d(0.0, 1.0), 25).lasted_s < 0.05); }
+  SUBCASE("the same, weaker: for no longer than it has been felt") {
+    const FeltPush felt = robot.go_on(observer, Vector2d(0.0, -0.5), 25);
+    CHECK(felt.lasted_s > 0.23);
+    CHECK(felt.lasted_s <= 0.2501);
+  }
+}
+
+TEST_CASE("what the noise of the velocity makes of it is seldom taken for a push") {
+  PushObserver observer;
+  Robot robot(0.01);
+  robot.go_on(observer, Vector2d::Zero(), 2000);
+  int felt = 0;
+  for (int n = 0; n < 5000; ++n) felt += robot.go_on(observer, Vector2d::Zero(), 1).lasted_s > 0.0;
+  CHECK(felt < 100);
+  robot.go_on(observer, Vector2d(2.7, 0.0), 25);  // as by 250 N on 90 kg
+  double mean = 0.0;
+  for (int n = 0; n < 25; ++n) mean += robot.go_on(observer, Vector2d(2.7, 0.0), 1).acceleration_W.x() / 25.0;
+  CHECK(mean == doctest::Approx(2.15).epsilon(0.2));
+}
+
+TEST_CASE("a push fades while contacts are not those of which the model thought, and is bounded") {
+  PushObserver observer;
+  Robot robot;
+  const double felt = robot.go_on(observer, Vector2d(1.0, 0.0), 100).acceleration_W.x();
+  for (int n = 0; n < 25; ++n) observer.update(Vector2d(9.0 * n, 0.0), std::nullopt, kStep_s);
+  CHECK(observer.push().acceleration_W.x() == doctest::Approx(std::exp(-0.5)).epsilon(0.1));
+  CHECK(observer.push().acceleration_W.x() < felt);
+  CHECK(robot.go_on(observer, Vector2d(0.0, 50.0), 500).acceleration_W.norm() <= 3.0);
+}
+
+TEST_CASE("a reading that is no number does not stay") {
+  PushObserver observer;
+  Robot robot;
+  const FeltPush before = robot.go_on(observer, Vector2d(1.0, 0.0), 100);
+  observer.update(Vector2d(std::numeric_limits<double>::quiet_NaN(), 0.0), Vector2d::Zero(), kStep_s);
+  CHECK(observer.push().acceleration_W == before.acceleration_W);
+  CHECK(robot.go_on(observer, Vector2d(1.0, 0.0), 100).acceleration_W.x() == doctest::Approx(1.0).epsilon(0.03));
+}
