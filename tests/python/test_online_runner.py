@@ -73,7 +73,7 @@ def test_a_push_that_is_a_fall_open_loop_is_survived(plan):
     assert "error" not in replanned.online.statuses  # as replans from a stand had, which nobody saw
 
 
-@pytest.mark.parametrize(("at_s", "direction_deg"), [(2.14, 270.0), (2.44, 90.0)])
+@pytest.mark.parametrize(("at_s", "direction_deg"), [(2.17, 270.0), (2.44, 90.0)])
 def test_a_push_is_caught_by_steps_that_the_plan_did_not_have(plan, at_s, direction_deg):
     """As a foot lifts, to the side on which it is; and in the middle of a swing, outward over the foot that stands."""
     told = {"push": (250.0, 0.2, at_s, direction_deg), "latency": LATENCY, "self_contacts": False}
