@@ -35,7 +35,9 @@ void bind_online(py::module_& parent) {
           py::arg("dt_s"),
           "What is felt at this control step: velocity of the CoM on the level (2,) [m/s], its acceleration since the "
           "last call by the model (2,) [m/s^2] or None where contacts were others than the model thought, and the time "
-          "since the last call [s].")
+          "since the last call [s]. Velocities and accelerations that no robot has, or that are no numbers, are left "
+          "out. "
+          "Raises InvalidInput for a time that is not positive.")
       .def_property_readonly("push", &online::PushObserver::push, "The FeltPush of the last call.");
 }
 

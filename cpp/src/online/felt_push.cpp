@@ -5,6 +5,7 @@
 
 #include "mcplan/base/error.hpp"
 #include "model/read.hpp"
+#include "model/text.hpp"
 #include "online/felt_push_fields.hpp"
 
 namespace mcplan::online {
@@ -16,6 +17,12 @@ constexpr double kDeviations = 3.0;    // of the noise, likewise
 constexpr double kLargest_m_s2 = 3.0;  // what is more is a blow, or a mistake
 constexpr double kFades_s = 0.1;       // while nothing can be said
 constexpr double kNoise_s = 1.0;       // over which the noise is averaged
+constexpr double kAbsurd = 1e6;        // [m/s, m/s^2] what no robot does, nor what is not finite
+
+void require_positive(const char* name, double value) {
+  if (!(value > 0.0 && std::isfinite(value)))
+    throw InvalidInput(name, "must be positive and finite", model::number_text(value));
+}
 
 }  // namespace
 
@@ -27,6 +34,7 @@ void FeltPush::validate() const {
 
 Eigen::Vector3d com_shift_W(const FeltPush& push, double omega) {
   push.validate();
+  require_positive("omega", omega);
   const double share = -std::expm1(-omega * kLastsRatio * push.lasted_s);
   Eigen::Vector3d out = Eigen::Vector3d::Zero();
   out.head<2>() = share / (omega * omega) * push.acceleration_W;
@@ -35,9 +43,10 @@ Eigen::Vector3d com_shift_W(const FeltPush& push, double omega) {
 
 const FeltPush& PushObserver::update(const Eigen::Vector2d& velocity_W,
                                      const std::optional<Eigen::Vector2d>& promised_W, double dt_s) {
-  if (!velocity_W.allFinite()) return push_;  // one bad reading must not stay in it for good
-  const double q = std::exp(-kPoles * dt_s);  // both poles, discrete
-  if (started_ && promised_W && promised_W->allFinite()) {
+  require_positive("dt_s", dt_s);
+  if (!(velocity_W.norm() < kAbsurd)) return push_;  // one bad reading must not stay in it for good
+  const double q = std::exp(-kPoles * dt_s);         // both poles, discrete
+  if (started_ && promised_W && promised_W->norm() < kAbsurd) {
     const Eigen::Vector2d expected_W = velocity_W_ + dt_s * (*promised_W + acceleration_W_);
     const Eigen::Vector2d error_W = velocity_W - expected_W;
     velocity_W_ = expected_W + (1.0 - q * q) * error_W;

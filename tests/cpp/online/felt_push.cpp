@@ -88,6 +88,10 @@ TEST_CASE("a push that is none is refused by name") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(com_shift_W(push(nan, 0.1), kOmega), "push.acceleration_W[0]: must be a finite number, got nan",
                        InvalidInput);
+  CHECK_THROWS_WITH_AS(com_shift_W(push(1.0, 0.5), 0.0), "omega: must be positive and finite, got 0.0", InvalidInput);
+  PushObserver observer;
+  for (const double wrong : {0.0, -0.002, nan})
+    CHECK_THROWS_AS(observer.update(Vector2d::Zero(), std::nullopt, wrong), InvalidInput);
   CHECK_THROWS_WITH_AS(com_shift_W(push(1.0, -0.5), kOmega), "push.lasted_s: must be at least 0, got -0.5",
                        InvalidInput);
 }
@@ -147,11 +151,14 @@ TEST_CASE("a push fades while contacts are not those of which the model thought,
   CHECK(robot.go_on(observer, Vector2d(0.0, 50.0), 500).acceleration_W.norm() <= 3.0);
 }
 
-TEST_CASE("a reading that is no number does not stay") {
+TEST_CASE("a reading that is no number, or is absurd, does not stay") {
   PushObserver observer;
   Robot robot;
   const FeltPush before = robot.go_on(observer, Vector2d(1.0, 0.0), 100);
-  observer.update(Vector2d(std::numeric_limits<double>::quiet_NaN(), 0.0), Vector2d::Zero(), kStep_s);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const double wrong : {nan, inf, 1e300, -1e7}) {
+    observer.update(Vector2d(wrong, 0.0), Vector2d::Zero(), kStep_s);
+  }
   CHECK(observer.push().acceleration_W == before.acceleration_W);
   CHECK(robot.go_on(observer, Vector2d(1.0, 0.0), 100).acceleration_W.x() == doctest::Approx(1.0).epsilon(0.03));
 }

@@ -24,7 +24,7 @@ constexpr double kLastsRatio = 2.0;
 /// A pendulum that is pushed by an acceleration a moves as c'' = omega^2 (c - p) + a, so c + a / omega^2 moves as one
 /// that is not: a plan from there has its steps where they hold the robot that leans against the push. A push that ends
 /// after T moves the capture point c + c' / omega by (1 - exp(-omega T)) a / omega^2 in all. How long it lasts nobody
-/// knows; that it goes on for as long as it has, more or less, is the usual guess (Lindy's).
+/// knows; that it goes on for as long as it has, more or less, is the usual guess (Lindy's). Throws InvalidInput.
 Eigen::Vector3d com_shift_W(const FeltPush& push, double omega);
 
 /// Feels pushes by the CoM's velocity. Call update() once a control step.
@@ -42,6 +42,7 @@ class PushObserver {
   /// @param promised_W  acceleration since the last call, by the controller's model [m/s^2]; none: contacts are not
   ///                    those of which the model thought, or it had no solution. The push then fades.
   /// @param dt_s        since the last call, positive
+  /// A velocity or an acceleration that no robot has, or that is no number, is left out. Throws InvalidInput for dt_s.
   const FeltPush& update(const Eigen::Vector2d& velocity_W, const std::optional<Eigen::Vector2d>& promised_W,
                          double dt_s);
 
