@@ -40,12 +40,18 @@ def test_a_push_that_lasts_is_survived_since_it_is_felt(plan, monkeypatch):
     assert pushed(plan).measures.fell
 
 
-def test_the_robot_leans_against_what_pushes_it(plan):
+def test_the_robot_leans_against_what_pushes_it(plan, tmp_path):
     """References are the CoM's, which is behind the plan's by what the push does."""
     run = pushed(plan)
     while_pushed_s = AT_S + 0.6
     followed = [f for f in run.plans if f.from_s <= while_pushed_s][-1]
     reference_W = run.recording.com_plan_W[np.searchsorted(run.recording.times_s, while_pushed_s)]
     ahead_m = followed.plan.at(while_pushed_s - followed.begins_s).com_W[1] - reference_W[1]
-    leans_m = FORCE_N / 90.3 * followed.plan.robot.com_height / 9.81  # a / omega^2, in the end
+    robot = followed.plan.robot
+    leans_m = FORCE_N / robot.mass * robot.com_height / followed.plan.scene.gravity  # a / omega^2, in the end
     assert ahead_m == pytest.approx(leans_m, rel=0.2)
+    # But for what is left of the change from the plan before.
+    assert ahead_m == pytest.approx(followed.com_shift_W[1], abs=0.02)
+    path = tmp_path / "pushed.npz"
+    run.save(path)
+    assert [f.com_shift_W for f in type(run).load(path).plans] == [f.com_shift_W for f in run.plans]

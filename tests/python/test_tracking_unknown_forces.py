@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mcplan.tracking.unknown_forces import LAG_S, SETTLES_S, UnknownForces
+from mcplan.tracking.unknown_forces import LAG_S, UnknownForces
 
 DT_S = 0.002
 
@@ -23,21 +23,10 @@ def test_a_push_is_felt_at_once_and_taken_off_through_a_lag_and_a_load_in_time()
     forces = UnknownForces(DT_S)
     observe(forces, np.array([0.5, -1.2, -0.9]), 65)
     np.testing.assert_allclose(forces.push.acceleration_W, [0.5, -1.2], rtol=0.02)
-    assert 0.08 < forces.push.lasted_s <= 0.13 - SETTLES_S
-    share = 1.0 - np.exp(-0.09 / LAG_S)  # felt after some 10 ms
+    assert 0.08 < forces.push.lasted_s <= 0.1
+    share = 1.0 - np.exp(-0.09 / LAG_S)  # felt some 10 ms after soles have settled, 30 ms after the begin
     np.testing.assert_allclose(forces.acceleration_W[:2], share * np.array([0.5, -1.2]), rtol=0.05)
     assert -0.05 < forces.acceleration_W[2] < -0.02
-
-
-def test_what_a_landing_does_to_the_com_is_no_push():
-    """While contacts change nothing is known, nor until the soles have settled."""
-    forces = UnknownForces(DT_S)
-    observe(forces, np.zeros(3), 50)
-    observe(forces, np.array([2.0, 0.0, 0.0]), 5, as_expected=False)
-    for after_s in np.arange(0.0, SETTLES_S - DT_S, DT_S):
-        forces.update(np.array([5.0 * after_s, 0.0, 0.0]), True)
-        forces.predict(np.zeros(3))
-        assert forces.push.lasted_s == 0.0
 
 
 def test_a_load_alone_is_no_push():

@@ -16,6 +16,7 @@ constexpr double kDead_m_s2 = 0.15;    // below which nothing pushes
 constexpr double kDeviations = 3.0;    // of the noise, likewise
 constexpr double kLargest_m_s2 = 3.0;  // what is more is a blow, or a mistake
 constexpr double kFades_s = 0.1;       // while nothing can be said
+constexpr double kSettles_s = 0.03;    // after contacts have changed
 constexpr double kNoise_s = 1.0;       // over which the noise is averaged
 constexpr double kAbsurd = 1e6;        // [m/s, m/s^2] what no robot does, nor what is not finite
 
@@ -32,9 +33,11 @@ void FeltPush::validate() const {
   found.raise<InvalidInput>();
 }
 
-Eigen::Vector3d com_shift_W(const FeltPush& push, double omega) {
+Eigen::Vector3d com_shift_W(const FeltPush& push, double com_height, double gravity) {
   push.validate();
-  require_positive("omega", omega);
+  require_positive("com_height", com_height);
+  require_positive("gravity", gravity);
+  const double omega = std::sqrt(gravity / com_height);
   const double share = -std::expm1(-omega * kLastsRatio * push.lasted_s);
   Eigen::Vector3d out = Eigen::Vector3d::Zero();
   out.head<2>() = share / (omega * omega) * push.acceleration_W;
@@ -46,7 +49,9 @@ const FeltPush& PushObserver::update(const Eigen::Vector2d& velocity_W,
   require_positive("dt_s", dt_s);
   if (!(velocity_W.norm() < kAbsurd)) return push_;  // one bad reading must not stay in it for good
   const double q = std::exp(-kPoles * dt_s);         // both poles, discrete
-  if (started_ && promised_W && promised_W->norm() < kAbsurd) {
+  const bool promised = promised_W && promised_W->norm() < kAbsurd;
+  settled_s_ = promised ? settled_s_ + dt_s : 0.0;
+  if (started_ && settled_s_ > kSettles_s) {
     const Eigen::Vector2d expected_W = velocity_W_ + dt_s * (*promised_W + acceleration_W_);
     const Eigen::Vector2d error_W = velocity_W - expected_W;
     velocity_W_ = expected_W + (1.0 - q * q) * error_W;

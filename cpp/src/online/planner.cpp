@@ -74,7 +74,7 @@ Update answer(const Question& question) {
   try {
     const Robot& robot = question.plan->robot;
     const Scene& scene = question.scene ? *question.scene : question.plan->scene;
-    out.com_shift_W = com_shift_W(question.state.push, std::sqrt(scene.gravity / robot.com_height));
+    out.com_shift_W = com_shift_W(question.state.push, robot.com_height, scene.gravity);
     out.result = first_usable(question, out.com_shift_W);
     out.usable = follows(out.result->report, question.options.period_s);
     out.kept_until_s += out.result->report.kept_until_s;

@@ -63,7 +63,7 @@ class PushObserver:
         dt_s: typing.SupportsFloat | typing.SupportsIndex,
     ) -> FeltPush:
         """
-        What is felt at this control step: velocity of the CoM on the level (2,) [m/s], its acceleration since the last call by the model (2,) [m/s^2] or None where contacts were others than the model thought, and the time since the last call [s]. Velocities and accelerations that no robot has, or that are no numbers, are left out. Raises InvalidInput for a time that is not positive.
+        What is felt at this control step: velocity of the CoM on the level (2,) [m/s], its acceleration since the last call by the model (2,) [m/s^2] or None where contacts were others than the model thought, and the time since the last call [s]. Velocities and accelerations that no robot has, or that are no numbers, are left out, and so is what happens until 30 ms after contacts were others. Raises InvalidInput for a time that is not positive.
         """
     @property
     def push(self) -> FeltPush:
@@ -72,10 +72,12 @@ class PushObserver:
         """
 
 def com_shift_W(
-    push: FeltPush, omega: typing.SupportsFloat | typing.SupportsIndex
+    push: FeltPush,
+    com_height: typing.SupportsFloat | typing.SupportsIndex,
+    gravity: typing.SupportsFloat | typing.SupportsIndex,
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
     """
-    How far beside the measured CoM to plan from while a push is felt, (3,) [m], for a pendulum of frequency omega [1/s]; references of the CoM are as far on the other side of the plan's. Raises InvalidInput.
+    How far beside the measured CoM to plan from while a push is felt, (3,) [m], for a pendulum of a height [m] under gravity [m/s^2]; references of the CoM are as far on the other side of the plan's. Raises InvalidInput.
     """
 
 def follows(report: mcplan._core.Report, period_s: typing.SupportsFloat | typing.SupportsIndex) -> bool:

@@ -98,7 +98,6 @@ class Loop:
         self.actual = RobotDynamics(self.urdf_model)
         weight_N = self.actual.mass * plan.scene.gravity
         self.contact_N = CONTACT_RATIO * weight_N
-        self.omega = np.sqrt(plan.scene.gravity / plan.robot.com_height)
         standing = desired.surfaces[0] >= 0
         self.true_scene = true_scene
         self.ground = KnownGround(plan.scene, true_scene, online, len(standing), PRESSES_RATIO * weight_N)
@@ -210,14 +209,14 @@ class Loop:
     def _ask(self, now_s: float, read: tuple[Array, Array], standing: NDArray[np.bool_], touchdown: bool) -> None:
         """Submit the state if a replan is due. The simulation waits, its clock goes on by the latency."""
         under_way, push = self.plan, self.controller.unknown.push
+        com_W, velocity_W = self.controller.dynamics.com_W, self.controller.dynamics.com_velocity_W
         # Plans begin beside the measured CoM while a push is felt: it is there that the robot leaves them or does not.
-        com_W = self.controller.dynamics.com_W + com_shift_W(push, self.omega)
-        velocity_W = self.controller.dynamics.com_velocity_W
+        beside_W = com_W + com_shift_W(push, under_way.plan.robot.com_height, under_way.plan.scene.gravity)
         t = now_s - under_way.begins_s
         self._set_goal(now_s)
         self.pace.new_goal = self.aim.open
         self.pace.commanded = self.online.command_at(now_s) is not None
-        reason = self.pace.due(now_s, touchdown, under_way.plan, t, com_W, velocity_W)
+        reason = self.pace.due(now_s, touchdown, under_way.plan, t, beside_W, velocity_W)
         if reason is None:
             return
         state = self.reader.read(now_s, *read, self._for_planner(standing), under_way.plan, t)
@@ -240,7 +239,7 @@ class Loop:
         self.pace.asked(now_s)
         latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
         self.tally.computed(update, latency_s, reason)
-        off_m = distances(under_way.plan, t, com_W, velocity_W)
+        off_m = distances(under_way.plan, t, beside_W, velocity_W)
         on_plan = off_m[0] < self.online.com_margin_m and off_m[1] < self.online.capture_margin_m
         needless = few and update.usable and update.plan is not None and longer(update.plan, under_way.plan, t)
         needless |= few and on_plan and misses_at_once(update, t, self.online.period_s)
@@ -325,7 +324,8 @@ class Loop:
             self._plan_on(self.ground.scene)
         elif self.planner.command is None and update.status in ("solved", "acceptable"):
             self.aim.led_to()
-        self.kept.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
+        followed = FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message, update.com_shift_W)
+        self.kept.plans.append(followed)
         self.tally.used += 1
 
     def _touchdowns(self, before: NDArray[np.bool_], standing: NDArray[np.bool_], dynamics: RobotDynamics) -> None:

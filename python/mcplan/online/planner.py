@@ -287,7 +287,7 @@ class Planner:
     def _beside(self, state: MeasuredState, plan: Plan) -> tuple[Knot, tuple[float, float, float]]:
         """The state to plan from while a push is felt, and how far its CoM is beside the measured one (3,) [m]."""
         gravity = plan.scene.gravity if self.scene is None else self.scene.gravity
-        shift_W = com_shift_W(state.push or FeltPush(), np.sqrt(gravity / plan.robot.com_height))
+        shift_W = com_shift_W(state.push or FeltPush(), plan.robot.com_height, gravity)
         knot = state.knot.__copy__()
         knot.com_W = knot.com_W + shift_W
         return knot, (float(shift_W[0]), float(shift_W[1]), float(shift_W[2]))

@@ -20,7 +20,7 @@ from .options import OnlineOptions, option_names
 from .velocities import CommandReached, commands_reached, reached_text
 
 #: What stands in files of a plan that was followed, beside the plan.
-_OF_PLANS = ("begins_s", "from_s", "took_s", "message")
+_OF_PLANS = ("begins_s", "from_s", "took_s", "message", "com_shift_W")
 #: A goal is reached from this distance of the CoM on, over its nominal height.
 REACHED_RATIO = 0.1
 
@@ -35,6 +35,7 @@ class FollowedPlan:
         from_s: Time of the run from which on it was followed.
         took_s: Wall clock of its computation.
         message: What the planner said of it.
+        com_shift_W: (3,) by which its CoM is beside the robot's [m], which was pushed.
     """
 
     plan: Plan
@@ -42,6 +43,7 @@ class FollowedPlan:
     from_s: float
     took_s: float = 0.0
     message: str = ""
+    com_shift_W: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -122,7 +124,9 @@ def result_from(header: Header, arrays: Arrays) -> TrackingResult:
         name = _file_of(number)
         if name not in arrays:
             raise InvalidInput(name, "is required")
-        plans.append(FollowedPlan(plan_from_bytes(arrays[name].tobytes()), **{key: of_plan[key] for key in _OF_PLANS}))
+        told = {key: of_plan[key] for key in _OF_PLANS if key in of_plan}  # earlier versions felt no pushes
+        told["com_shift_W"] = tuple(told.get("com_shift_W", FollowedPlan.com_shift_W))
+        plans.append(FollowedPlan(plan_from_bytes(arrays[name].tobytes()), **told))
     engine = own["options"].get("engine", OnlineOptions.engine)  # earlier versions had one alone
     options = numbers(
         {key: value for key, value in own["options"].items() if key in option_names() and key != "engine"}

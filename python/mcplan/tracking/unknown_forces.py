@@ -14,8 +14,6 @@ Array = NDArray[np.float64]
 #: Lag through which a push is taken off what is asked of the CoM [s]. Without one, soles that roll on an edge, of which the
 #: model knows nothing, swing up with what is done about it.
 LAG_S = 0.1
-#: For so long after a contact begins or ends the CoM does what the model does not know of [s].
-SETTLES_S = 0.03
 
 
 class UnknownForces:
@@ -36,7 +34,6 @@ class UnknownForces:
         self.dt_s = dt_s
         self._load, self._pushed = UnknownLoad(dt_s), PushObserver()
         self._promised_W: Array | None = None
-        self._settled_s = 0.0
         self.acceleration_W = np.zeros(3)
 
     def update(self, velocity_W: Array, as_expected: bool) -> None:
@@ -47,9 +44,7 @@ class UnknownForces:
             as_expected: Whether just those end-effectors are in contact, one at least, of which the program thought so.
         """
         self.acceleration_W[2] = self._load.update(float(velocity_W[2]), as_expected)
-        self._settled_s = self._settled_s + self.dt_s if as_expected else 0.0
-        settled = self._settled_s > SETTLES_S
-        promised_W = self._promised_W[:2] if settled and self._promised_W is not None else None
+        promised_W = self._promised_W[:2] if as_expected and self._promised_W is not None else None
         self._pushed.update(velocity_W[:2], promised_W, self.dt_s)
         self._promised_W = None
         lags = self.push.acceleration_W - self.acceleration_W[:2]

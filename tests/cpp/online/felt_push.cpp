@@ -15,7 +15,8 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kStep_s = 0.002;
-constexpr double kOmega = 3.3;
+constexpr double kHeight = 0.9, kGravity = 9.81;
+const double kOmega = std::sqrt(kGravity / kHeight);
 
 struct Pendulum {
   double position = 0.0, velocity = 0.0;
@@ -63,7 +64,7 @@ class Robot {
 }  // namespace
 
 TEST_CASE("a pendulum that leans against a steady push moves as one beside it that is not pushed") {
-  const double acceleration = 1.2, beside = com_shift_W(push(acceleration, 100.0), kOmega).x();
+  const double acceleration = 1.2, beside = com_shift_W(push(acceleration, 100.0), kHeight, kGravity).x();
   const Pendulum pushed = after({0.01, -0.1}, acceleration, 0.5), free = after({0.01 + beside, -0.1}, 0.0, 0.5);
   CHECK(pushed.position + beside == doctest::Approx(free.position).epsilon(1e-6));
   CHECK(pushed.velocity == doctest::Approx(free.velocity).epsilon(1e-6));
@@ -71,14 +72,14 @@ TEST_CASE("a pendulum that leans against a steady push moves as one beside it th
 
 TEST_CASE("a push that ends moves the capture point by what is planned for") {
   const double acceleration = -2.7, lasts_s = 0.15;
-  const double beside = com_shift_W(push(acceleration, lasts_s / kLastsRatio), kOmega).x();
+  const double beside = com_shift_W(push(acceleration, lasts_s / kLastsRatio), kHeight, kGravity).x();
   const Pendulum pushed = after({0.02, 0.3}, acceleration, lasts_s), free = after({0.02 + beside, 0.3}, 0.0, lasts_s);
   CHECK(pushed.capture() == doctest::Approx(free.capture()).epsilon(1e-6));
 }
 
 TEST_CASE("the shift lies in the direction of the push, on the level, and is none where nothing pushes") {
-  CHECK(com_shift_W({}, kOmega).norm() == 0.0);
-  const Eigen::Vector3d shift_W = com_shift_W({Vector2d(0.3, -0.4), 0.1}, kOmega);
+  CHECK(com_shift_W({}, kHeight, kGravity).norm() == 0.0);
+  const Eigen::Vector3d shift_W = com_shift_W({Vector2d(0.3, -0.4), 0.1}, kHeight, kGravity);
   CHECK(shift_W.z() == 0.0);
   CHECK(shift_W.x() / shift_W.y() == doctest::Approx(-0.75));
   CHECK(shift_W.x() > 0.0);
@@ -86,13 +87,14 @@ TEST_CASE("the shift lies in the direction of the push, on the level, and is non
 
 TEST_CASE("a push that is none is refused by name") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH_AS(com_shift_W(push(nan, 0.1), kOmega), "push.acceleration_W[0]: must be a finite number, got nan",
+  CHECK_THROWS_WITH_AS(com_shift_W(push(nan, 0.1), kHeight, kGravity),
+                       "push.acceleration_W[0]: must be a finite number, got nan", InvalidInput);
+  CHECK_THROWS_WITH_AS(com_shift_W(push(1.0, 0.5), 0.0, kGravity), "com_height: must be positive and finite, got 0.0",
                        InvalidInput);
-  CHECK_THROWS_WITH_AS(com_shift_W(push(1.0, 0.5), 0.0), "omega: must be positive and finite, got 0.0", InvalidInput);
   PushObserver observer;
   for (const double wrong : {0.0, -0.002, nan})
     CHECK_THROWS_AS(observer.update(Vector2d::Zero(), std::nullopt, wrong), InvalidInput);
-  CHECK_THROWS_WITH_AS(com_shift_W(push(1.0, -0.5), kOmega), "push.lasted_s: must be at least 0, got -0.5",
+  CHECK_THROWS_WITH_AS(com_shift_W(push(1.0, -0.5), kHeight, kGravity), "push.lasted_s: must be at least 0, got -0.5",
                        InvalidInput);
 }
 
@@ -113,6 +115,7 @@ TEST_CASE("a push is felt, and for how long, and that it is over") {
 TEST_CASE("what pushes to another side is another push") {
   PushObserver observer;
   Robot robot;
+  robot.go_on(observer, Vector2d::Zero(), 50);
   robot.go_on(observer, Vector2d(0.0, -2.4), 100);
   CHECK(observer.push().lasted_s > 0.18);
   SUBCASE("aslant") {
@@ -126,6 +129,15 @@ TEST_CASE("what pushes to another side is another push") {
     CHECK(felt.lasted_s > 0.23);
     CHECK(felt.lasted_s <= 0.2501);
   }
+}
+
+TEST_CASE("what a landing does to the CoM is no push") {
+  PushObserver observer;
+  Robot robot;
+  robot.go_on(observer, Vector2d::Zero(), 100);
+  observer.update(Vector2d(0.3, 0.0), std::nullopt, kStep_s);  // contacts are others
+  CHECK(robot.go_on(observer, Vector2d(5.0, 0.0), 14).lasted_s == 0.0);
+  CHECK(robot.go_on(observer, Vector2d(5.0, 0.0), 10).lasted_s > 0.0);  // it goes on: that is one
 }
 
 TEST_CASE("what the noise of the velocity makes of it is seldom taken for a push") {
