@@ -50,9 +50,9 @@ constexpr double kDearPhase = 0.03;
 /// A crawl on four point feet is tried in so many times as many phases as the way asks for, until one succeeds.
 /// Measured on rooms with a door aside: 58 phases fail, 70 are enough.
 constexpr double kCrawlPhases[] = {1.0, 1.2, 1.45};
-
-/// Tracked point feet are planned this far inside their surface, in CoM heights. Chosen: the radius of Go2's foot.
-constexpr double kPointMargin = 0.08;
+/// Tracked point feet are planned this far inside their surface, in CoM heights (chosen: the radius of Go2's foot), and
+/// legs from a measured state this much shorter than they can be at most [m] (measured: docs/online.md, "Limits").
+constexpr double kPointMargin = 0.08, kLegMargin_m = 0.01;
 
 // Routes.
 
@@ -373,9 +373,9 @@ constexpr int kWorthwhile = 10;
 /// Swings of steps that are put in last so much of the way from the shortest to the longest phase. Chosen.
 constexpr double kAddedSwing = 0.6;
 /// Under a velocity command the robot stops within so long at the end of the horizon [s]; ground there may lie so far
-/// from where a foot is due, in heights of the CoM; and strides take at most so much of the length of a reach box.
-/// Chosen.
-constexpr double kCommandStop_s = 0.8, kCommandOff = 0.15, kCommandStride = 0.85;
+/// from where a foot is due, in heights of the CoM; and strides take at most so much of the length of a reach box, all
+/// chosen, and of a crawl's measured (docs/online.md, "Four feet").
+constexpr double kCommandStop_s = 0.8, kCommandOff = 0.15, kCommandStride = 0.85, kCrawlStride = 0.7;
 /// What a start violates is made good within this ratio of the time that the checker forgives it for: limits are held
 /// at a few instants, and those move with the durations. Chosen.
 constexpr double kSlackRatio = 0.85;

@@ -23,7 +23,7 @@ void shrink(EndLimits& limit, double by) {
   limit.reach_max = (limit.reach_max.array() - by).matrix().cwiseMax(middle);
   for (int i = 0; i < limit.cuts; ++i)
     limit.cut_b[i] = std::max(limit.cut_b[i] - by, std::min(limit.cut_b[i], limit.cut_A.row(i).dot(limit.nominal)));
-  if (limit.limb.given()) limit.leg_max = std::max(limit.leg_max - by, std::min(limit.leg_max, limit.nominal_leg()));
+  if (limit.limb.given()) limit.shorten_leg(by);
 }
 
 /// Joints of legs are held, and planned as if they were weaker by a ratio, or slower, than they are.

@@ -199,7 +199,8 @@ EndLimits Problem::limits_of(const EndEffector& end) const {
   for (double* length : {&l.limb.upper, &l.limb.lower, &l.limb.margin}) *length /= units.length;
   if (l.limb.given()) {
     const double longest = VirtualLeg::max_length({l.limb.upper, l.limb.lower}) - l.limb.margin;
-    l.leg_max = longest - std::clamp(longest - l.nominal_leg(), 0.0, margin.x() / units.length);
+    l.leg_max = longest;
+    l.shorten_leg(margin.x() / units.length);
   }
   l.limb.knee_torque /= units.moment();
   l.limb.hip_torque /= units.moment();
@@ -352,6 +353,8 @@ void Problem::set_start(const Knot& state, const ContactState& contacts) {
   start_contacts = contacts;
   measured = true;
   start_end_velocities_W = state.end_effector_velocities_W;
+  for (EndLimits& l : limits)
+    if (robot.tracked && l.limb.given()) l.shorten_leg(kLegMargin_m * similarity.length / units.length);
   const VectorXd measured_start = start;
   start.segment<3>(layout.velocity()).setZero();
   start.segment(layout.momentum(), layout.axis_count()).setZero();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <vector>
 
 #include "ddp/constants.hpp"
@@ -69,6 +70,8 @@ struct EndLimits {
 
   /// Length of the leg in the nominal stance.
   double nominal_leg() const { return (limb.hip_B - nominal - limb.ankle).norm(); }
+  /// Plan it shorter at most, but not than in the nominal stance.
+  void shorten_leg(double by) { leg_max = std::max(leg_max - by, std::min(leg_max, nominal_leg())); }
 };
 
 /// The robot that is planned for: without limb limits where the options do without joint limits.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "crawl.hpp"
 #include "plan/clearance.hpp"
 #include "surface_boxes.hpp"
 
@@ -12,18 +13,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The order in which walking animals set down one foot after the other: of either side the rear one, then the one
-/// ahead of it. The three feet that stand have the CoM between them for longer than in any other order.
 void sort_as_crawl(const Problem& problem, std::vector<int>& movers) {
   Vector3d ahead = (problem.reference.x.back() - problem.reference.x.front()).segment<3>(problem.layout.com());
-  const Vector3d heading = rotation_from_rpy({0.0, 0.0, problem.base_rpy.z()}).col(0);
+  const Eigen::Matrix3d heading = rotation_from_rpy({0.0, 0.0, problem.base_rpy.z()});
   ahead.z() = 0.0;
-  if (ahead.norm() < 1e-6) ahead = heading;
-  const auto place = [&](int l) {
-    const Vector3d at = rotation_from_rpy({0.0, 0.0, problem.base_rpy.z()}) * problem.limits[l].nominal;
-    return std::make_pair(ahead.cross(at).z() > 0.0, ahead.dot(at));
+  if (ahead.norm() < 1e-6) ahead = heading.col(0);
+  const auto turn = [&](int l) {
+    const Vector3d at = heading * problem.limits[l].nominal;
+    return crawl_turn(ahead.head<2>(), at.head<2>());
   };
-  std::stable_sort(movers.begin(), movers.end(), [&](int a, int b) { return place(a) < place(b); });
+  std::stable_sort(movers.begin(), movers.end(), [&](int a, int b) { return turn(a) < turn(b); });
 }
 
 }  // namespace

@@ -172,7 +172,9 @@ void go_to_goal(Rest& rest, const Plan& previous, Now& now, Trials& trials) {
 void follow_command(const Rest& rest, const Now& now, Trials& trials) {
   std::vector<double> ratios{1.0};
   if (now.options->other_sequences) ratios = {1.0, 0.5, 0.0};
-  for (const double ratio : ratios) {
+  double longest = 1.0;  // the ratio at which strides are as long as legs and ground allow
+  for (const double shorter : ratios) {
+    const double ratio = shorter * longest;
     VelocityCommand command = *now.options->command;
     command.velocity_B *= ratio;
     command.yaw_rate *= ratio;
@@ -180,8 +182,10 @@ void follow_command(const Rest& rest, const Now& now, Trials& trials) {
     Scene scene = *now.scene;
     Now there = now;
     there.scene = &scene;
-    trials.followed(ratio * walk_on(ahead, scene, *now.robot, command, now.options->horizon));
-    if (ratio == ratios.front()) {
+    const double followed = ratio * walk_on(ahead, scene, *now.robot, command, now.options->horizon);
+    trials.followed(followed);
+    if (shorter == ratios.front()) {
+      longest = followed;
       Rest near = ahead;
       as_planned_or_with_a_hand(ahead, near, there, trials);
     } else {
@@ -190,7 +194,7 @@ void follow_command(const Rest& rest, const Now& now, Trials& trials) {
     }
     if (trials.done()) return;
     const std::vector<Rest> others =
-        ratio == ratios.back() ? other_steps(ahead, *now.robot, now.similarity) : std::vector<Rest>();
+        shorter == ratios.back() ? other_steps(ahead, *now.robot, now.similarity) : std::vector<Rest>();
     for (const Rest& other : others) {
       trials.make(there, other, PlanFrom::other_sequence);
       if (trials.done()) return;

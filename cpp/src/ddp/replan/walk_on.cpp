@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ddp/constants.hpp"
+#include "ddp/crawl.hpp"
 #include "ddp/replan/given.hpp"
 #include "ddp/replan/under_feet.hpp"
 #include "mcplan/base/rotation.hpp"
@@ -95,36 +96,6 @@ void stop_standing(Rest& rest) {
   }
 }
 
-/// Feet in the order in which they stepped last, the one whose turn is next first.
-std::vector<int> turns_of(const Rest& rest, const Robot& robot) {
-  std::vector<int> feet, last;
-  for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e)
-    if (is_foot(robot, e) && rest.plan.final_contacts[e] != kFree) feet.push_back(e);
-  for (int e : feet) {
-    int k = rest.size() - 1;
-    while (k >= 0 && rest.surface(k, e) != kFree) --k;
-    last.push_back(k);
-  }
-  std::vector<int> order(feet.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return last[a] < last[b]; });
-  std::vector<int> out;
-  for (int i : order) out.push_back(feet[i]);
-  return out;
-}
-
-void add_steps(Rest& rest, const Robot& robot, int phases, const Similarity& similarity) {
-  const std::vector<int> turns = turns_of(rest, robot);
-  const Vector2d box_s = phase_duration_of(robot, similarity);
-  const double swing_s = swing_duration_of(box_s), stand_s = box_s[0];
-  for (int i = 0; !turns.empty() && rest.size() + 2 <= phases; ++i) {
-    ContactState swinging = rest.contacts(rest.size());
-    swinging[turns[i % turns.size()]] = kFree;
-    rest.insert(rest.size(), swinging, swing_s);
-    rest.insert(rest.size(), rest.contacts(rest.size()), stand_s);
-  }
-}
-
 /// The pose that the feet are nominal for, those in the air where they are about to land, and when that will be.
 std::pair<Pose, double> pose_of(const Rest& rest, const Robot& robot) {
   const std::vector<double> times = times_of(rest);
@@ -151,6 +122,66 @@ std::pair<Pose, double> pose_of(const Rest& rest, const Robot& robot) {
   pose.yaw = rest.plan.knots.front().base_rpy.z();
   pose.yaw += std::remainder(std::atan2(sine, cosine) - pose.yaw, 2.0 * M_PI);  // counts the turns that the base counts
   return {pose, at_s};
+}
+
+/// Feet in the order in which they stepped last, the one whose turn is next first, and when that was: the phase of the
+/// rest, -1 where it was before.
+struct Turns {
+  std::vector<int> feet, phase;
+};
+
+Turns turns_so_far(const Rest& rest, const Robot& robot) {
+  std::vector<std::pair<int, int>> found;
+  for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e) {
+    if (!is_foot(robot, e) || rest.plan.final_contacts[e] == kFree) continue;
+    int k = rest.size() - 1;
+    while (k >= 0 && rest.surface(k, e) != kFree) --k;
+    found.emplace_back(k, e);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  Turns out;
+  for (const auto& [k, e] : found) {
+    out.phase.push_back(k);
+    out.feet.push_back(e);
+  }
+  return out;
+}
+
+/// Of more than two feet what is left of a plan does not tell whose turn is next, since some have stepped before: they
+/// go on as in a crawl, and where none steps any more the one begins that lags most.
+std::vector<int> turns_of(const Rest& rest, const Robot& robot, const Pose& pose, const VelocityCommand& command) {
+  Turns turns = turns_so_far(rest, robot);
+  if (turns.feet.size() <= 2 || turns.phase.front() >= 0) return turns.feet;
+  const double speed = command.velocity_B.norm();
+  const Vector2d ahead_B = speed > 0.0 ? Vector2d(command.velocity_B / speed) : Vector2d(1.0, 0.0);
+  const auto nominal_B = [&](int e) { return Vector2d(robot.end_effectors[e].nominal_B.head<2>()); };
+  const auto lag = [&](int e) {
+    const Vector2d off = rest.plan.knots.back().end_effectors_W[e].head<2>() - pose.position;
+    return ahead_B.dot(nominal_B(e) - turned(off, -pose.yaw));
+  };
+  const bool steps = turns.phase.back() >= 0;
+  const int latest = turns.feet.back();
+  std::vector<int> order = std::move(turns.feet);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return crawl_turn(ahead_B, nominal_B(a)) < crawl_turn(ahead_B, nominal_B(b)); });
+  const auto first = steps
+                         ? std::find(order.begin(), order.end(), latest) + 1
+                         : std::max_element(order.begin(), order.end(), [&](int a, int b) { return lag(a) < lag(b); });
+  std::rotate(order.begin(), first, order.end());
+  return order;
+}
+
+void add_steps(Rest& rest, const Robot& robot, const VelocityCommand& command, int phases,
+               const Similarity& similarity) {
+  const std::vector<int> turns = turns_of(rest, robot, pose_of(rest, robot).first, command);
+  const Vector2d box_s = phase_duration_of(robot, similarity);
+  const double swing_s = swing_duration_of(box_s), stand_s = box_s[0];
+  for (int i = 0; !turns.empty() && rest.size() + 2 <= phases; ++i) {
+    ContactState swinging = rest.contacts(rest.size());
+    swinging[turns[i % turns.size()]] = kFree;
+    rest.insert(rest.size(), swinging, swing_s);
+    rest.insert(rest.size(), rest.contacts(rest.size()), stand_s);
+  }
 }
 
 /// Where a foot is due under a pose, at the height of the ground below.
@@ -248,7 +279,8 @@ double ratio_of_strides(const Robot& robot, const VelocityCommand& command, cons
     if (end.kind != "foot") continue;
     for (int i = 0; i < 2; ++i) {
       const double stride = between_s * std::abs(command.velocity_B[i]);
-      const double stride_max = kCommandStride * (end.reach_max_B[i] - end.reach_min_B[i]);
+      const double part = feet > 2 ? kCrawlStride : kCommandStride;
+      const double stride_max = part * (end.reach_max_B[i] - end.reach_min_B[i]);
       if (stride > stride_max) ratio = std::min(ratio, stride_max / stride);
     }
   }
@@ -289,7 +321,7 @@ double walk_on(Rest& rest, Scene& scene, const Robot& robot, const VelocityComma
   const Similarity similarity = similarity_of(robot, scene.gravity);
   cut_off(rest, phases);
   stop_standing(rest);
-  add_steps(rest, robot, phases, similarity);
+  add_steps(rest, robot, command, phases, similarity);
   const auto [pose, at_s] = pose_of(rest, robot);
   const double end_s = times_of(rest).back();
   const double stop_s = std::min(kCommandStop_s * similarity.time, std::max(end_s - at_s, 0.0));

@@ -3,6 +3,9 @@
 #include <doctest/doctest.h>
 
 #include "mcplan/ddp/plan.hpp"
+#include "mcplan/ddp/replan.hpp"
+#include "mcplan/robot/robot_files.hpp"
+#include "mcplan/scene/scene_files.hpp"
 #include "scenes.hpp"
 
 namespace {
@@ -71,4 +74,53 @@ TEST_CASE("a command is slowed down to strides that the legs reach, and by the g
   Scene scene = small;
   CHECK(walk_on(rest, scene, plan.robot, {{0.4, 0.0}, 0.0}, 12) < 1.0);
   CHECK(scene.goal.position_W.x() < 2.2 + 0.15 * 0.7);
+}
+
+TEST_CASE("each of four feet has its turn in a horizon of less steps than feet, those of a side one after the other") {
+  const Robot robot = load_robot("go2");
+  Scene scene = load_scene("flat");
+  const Plan plan = ddp::plan(scene, robot).plan;
+  Rest rest = rest_of(plan, plan.duration() - 0.01);
+  std::vector<int> steps;
+  while (steps.size() < 12) {
+    REQUIRE(walk_on(rest, scene, robot, {{0.05, 0.0}, 0.0}, 6) == 1.0);
+    const auto swings = [&rest](int k) {
+      for (int e = 0; e < 4; ++e)
+        if (rest.surface(k, e) == kFree) return e;
+      return -1;
+    };
+    int k = 0;
+    while (k < rest.size() && swings(k) < 0) ++k;
+    REQUIRE(k < rest.size());
+    steps.push_back(swings(k));
+    rest.drop(k + 1);
+  }
+  const auto is_left = [&](int e) { return robot.end_effectors[e].nominal_B.y() > 0.0; };
+  for (std::size_t i = 4; i < steps.size(); ++i) {
+    CHECK(steps[i] == steps[i - 4]);
+    for (std::size_t j = i - 3; j < i; ++j) CHECK(steps[i] != steps[j]);
+    const bool rear = robot.end_effectors[steps[i]].nominal_B.x() < 0.0;
+    if (rear && i + 1 < steps.size()) CHECK(is_left(steps[i + 1]) == is_left(steps[i]));
+  }
+}
+
+TEST_CASE("a command that is too fast for legs is followed at a lower velocity, not at none") {
+  Scene scene = load_scene("flat");
+  for (const char* name : {"go2", "humanoid44"}) {
+    CAPTURE(name);
+    const Robot robot = load_robot(name);
+    const Plan plan = ddp::plan(scene, robot).plan;
+    ReplanOptions options;
+    const Measured measured{rest_of(plan, 0.3).plan.knots.front(), {}};
+    double slow = 0.0;
+    for (const double speed : {0.5, 2.0}) {
+      options.command = VelocityCommand{{speed, 0.0}, 0.0};
+      const PlanResult found = replan(plan, 0.3, measured, options);
+      const double went = found.plan.knots.back().com_W.x() - measured.state.com_W.x();
+      CHECK(found.report.status == Status::solved);
+      CHECK(went > 0.05);
+      if (slow > 0.0) CHECK(went == doctest::Approx(slow).epsilon(0.05));
+      slow = went;
+    }
+  }
 }
