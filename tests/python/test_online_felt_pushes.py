@@ -11,7 +11,7 @@ for name in ("mujoco", "pinocchio", "proxsuite", "example_robot_data"):
 from mcplan.online import FeltPush  # noqa: E402
 
 #: To the left, for a second, with 0.12 of the weight.
-FORCE_N, LASTS_S, AT_S = 109.0, 1.0, 2.6
+FORCE_N, LASTS_S = 109.0, 1.0
 
 
 class FeelsNothing:
@@ -28,22 +28,22 @@ def plan():
     return mp.plan("flat", "talos").plan
 
 
-def pushed(plan):
-    told = {"push": (FORCE_N, LASTS_S, AT_S, 90.0), "latency": 0.02, "self_contacts": False}
-    return mp.run(plan, duration=AT_S + 2.6, **told)
+def pushed(plan, at_s):
+    told = {"push": (FORCE_N, LASTS_S, at_s, 90.0), "latency": 0.02, "self_contacts": False}
+    return mp.run(plan, duration=at_s + 2.6, **told)
 
 
 def test_a_push_that_lasts_is_survived_since_it_is_felt(plan, monkeypatch):
-    felt = pushed(plan)
+    felt = pushed(plan, 3.0)
     assert not felt.measures.fell
     monkeypatch.setattr("mcplan.tracking.unknown_forces.PushObserver", FeelsNothing)
-    assert pushed(plan).measures.fell
+    assert pushed(plan, 3.0).measures.fell
 
 
 def test_the_robot_leans_against_what_pushes_it(plan, tmp_path):
     """References are the CoM's, which is behind the plan's by what the push does."""
-    run = pushed(plan)
-    while_pushed_s = AT_S + 0.6
+    run = pushed(plan, 2.6)
+    while_pushed_s = 2.6 + 0.6
     followed = [f for f in run.plans if f.from_s <= while_pushed_s][-1]
     reference_W = run.recording.com_plan_W[np.searchsorted(run.recording.times_s, while_pushed_s)]
     ahead_m = followed.plan.at(while_pushed_s - followed.begins_s).com_W[1] - reference_W[1]

@@ -14,8 +14,9 @@ import pytest
 import mcplan as mp
 import mcplan.online.planner as planner_module
 from mcplan import solve
+from mcplan._core.online import com_shift_W
 from mcplan.errors import InvalidArgument
-from mcplan.online import FeltPush, MeasuredState, OnlineOptions, Planner
+from mcplan.online import FeltPush, MeasuredState, OnlineOptions, Planner, PushObserver
 from mcplan.online.pacing import Pace, distances, steps_left
 from mcplan.online.planner import Update, with_feet_kept_up
 from mcplan.online.reach import widened
@@ -67,6 +68,34 @@ def test_a_plan_for_a_robot_that_is_pushed_begins_beside_it_and_says_how_far(pla
     np.testing.assert_allclose(update.com_shift_W, shift_W, rtol=1e-9)
     np.testing.assert_allclose(update.plan.at(0.0).com_W, measured.knot.com_W + shift_W, atol=1e-9)
     assert measured.knot == before  # what was submitted stays as it is
+
+
+def test_an_observer_goes_on_beside_the_planner_and_changes_nothing_that_was_submitted(plan):
+    observer, velocity_W = PushObserver(), np.zeros(2)
+    for _ in range(100):
+        velocity_W = velocity_W + 0.002 * np.array([0.5, 0.0])
+        observer.update(velocity_W, np.zeros(2), 0.002)
+    felt = observer.push
+    told = FeltPush(acceleration_W=np.array(felt.acceleration_W), lasted_s=felt.lasted_s)
+    own = FeltPush(acceleration_W=np.array(felt.acceleration_W), lasted_s=felt.lasted_s)
+    with Planner(plan) as planner:
+        planner.submit(replace(state(plan, 1.0), push=own))
+        own.acceleration_W = [-2.0, 0.0]
+        for _ in range(100):
+            velocity_W = velocity_W - 0.002 * np.array([1.5, 0.0])
+            observer.update(velocity_W, np.zeros(2), 0.002)
+        update = planner.wait()
+    assert felt == told != observer.push
+    expected = com_shift_W(told, plan.robot.com_height, plan.scene.gravity)
+    np.testing.assert_array_equal(update.com_shift_W, expected)
+
+
+def test_a_push_that_no_robot_feels_is_refused_by_name(plan):
+    with Planner(plan) as planner:
+        planner.submit(replace(state(plan, 1.0), push=FeltPush(acceleration_W=[1e6, 0.0], lasted_s=0.1)))
+        update = planner.wait()
+    assert update.status == "error" and not update.usable
+    assert "push.acceleration_W[0]: must lie in [-100, 100], got 1000000" in update.message
 
 
 def test_a_robot_that_hangs_a_little_lower_than_planned_goes_on_from_the_planned_height(plan):

@@ -156,3 +156,9 @@ def test_the_controller_keeps_contacts_and_torques(robot):
     command = controller.step(3, start, still, touching)
     assert command.solved and controller.points is kept[2]
     np.testing.assert_allclose(command.torques, kept[1], atol=2.0)  # the same stance
+
+
+@pytest.mark.parametrize("shift", [[np.nan, 0.0, 0.0], 5.0, [1.0, 2.0], "abc", [[0.0, 0.0, 0.0]]])
+def test_a_shift_that_is_none_is_refused(robot, shift):
+    with pytest.raises(mp.errors.InvalidInput, match="com_shift_W: must be three finite numbers"):
+        LiveReferences(wrenches.leaning(robot), robot, DT, 0.0, shift)

@@ -63,12 +63,12 @@ class PushObserver:
         dt_s: typing.SupportsFloat | typing.SupportsIndex,
     ) -> FeltPush:
         """
-        What is felt at this control step: velocity of the CoM on the level (2,) [m/s], its acceleration since the last call by the model (2,) [m/s^2] or None where contacts were others than the model thought, and the time since the last call [s]. Velocities and accelerations that no robot has, or that are no numbers, are left out, and so is what happens until 30 ms after contacts were others. Raises InvalidInput for a time that is not positive.
+        What is felt at this control step: velocity of the CoM on the level (2,) [m/s], its acceleration since the last call by the model (2,) [m/s^2] or None where contacts were others than the model thought, and the time since the last call [s]. While contacts are others, for 30 ms after it, and where a velocity or acceleration is one that no robot has, or no number, nothing can be said: what was felt is held for a fifth of the time for which it had been felt, 0.3 s at most. Noise makes it slower, and is no push. Raises InvalidInput for a time that is not positive.
         """
     @property
     def push(self) -> FeltPush:
         """
-        The FeltPush of the last call.
+        The FeltPush of the last call, a copy.
         """
 
 def com_shift_W(

@@ -7,7 +7,8 @@ import threading
 import time
 import weakref
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import partial
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
@@ -194,6 +195,8 @@ class Planner:
         """
         _require_state(state)
         replan_options(named)
+        if state.push is not None:  # an observer's goes on
+            state = replace(state, push=copy(state.push))
         return self._mailbox.submit((state, named))
 
     def poll(self) -> Update | None:

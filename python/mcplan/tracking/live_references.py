@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.errors import InvalidInput, shown
 from mcplan.kinematics.rotations import about_z, from_rpy, rotation_vector
 from mcplan.kinematics.samples import Interval, contact_intervals
 
@@ -44,13 +45,16 @@ class LiveReferences:
 
     Attributes:
         lifted: By end-effector that was free when the plan was taken over.
+
+    Raises:
+        InvalidInput: The shift is none.
     """
 
     def __init__(
         self, plan: Plan | None, robot: Robot | None, dt_s: float, t0: float, com_shift_W: Array | None = None
     ) -> None:
         self.plan, self.robot, self.dt_s, self.t0 = plan, robot, dt_s, t0
-        self._com_shift_W = np.zeros(3) if com_shift_W is None else np.asarray(com_shift_W, float)
+        self._com_shift_W = _shift(com_shift_W)
         self.lifted: dict[int, Lifted] = {}
         self._first = 0
         self._window: References | None = None
@@ -211,6 +215,19 @@ class LiveReferences:
                 yaws = found.end_effector_yaw[free, end] if self._yaws and not goes_on else None
                 soles_W[free, end] = _turning(start, goal, share * share * (3.0 - 2.0 * share), yaws)
         return soles_W, fraction, returns, following
+
+
+def _shift(com_shift_W: Array | None) -> Array:
+    """(3,) as given [m]."""
+    if com_shift_W is None:
+        return np.zeros(3)
+    try:
+        found = np.asarray(com_shift_W, float)
+    except (TypeError, ValueError):
+        found = np.empty(0)
+    if found.shape != (3,) or not np.isfinite(found).all():
+        raise InvalidInput("com_shift_W", "must be three finite numbers", shown(com_shift_W))
+    return found
 
 
 def _turning(start: Array, goal: Array, fraction: Array, yaws: Array | None) -> Array:

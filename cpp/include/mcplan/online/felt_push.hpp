@@ -36,30 +36,40 @@ Eigen::Vector3d com_shift_W(const FeltPush& push, double com_height, double grav
 ///
 ///   d/dt v_hat = u + a_hat + 2 w (v - v_hat),   d/dt a_hat = w^2 (v - v_hat),
 ///
-/// a_hat is the push's acceleration. For 30 ms after contacts were others than the model thought nothing is felt: soles
-/// have not settled, and what a landing does to the CoM is no push. What is below a dead zone is none: 0.15 m/s^2, or
-/// three standard deviations of what the noise of v makes of a_hat. A push that turns has lasted for as long as it
-/// would take to have given the impulse in its direction that was felt.
+/// a_hat is the push's acceleration, at most 3 m/s^2. Poles are at 150 1/s, or as far down to 20 1/s as keeps three
+/// standard deviations of what the noise of v makes of a_hat below a dead zone of 0.15 m/s^2, in which nothing pushes;
+/// with more noise than that they are the dead zone. While contacts are others than the model thinks, and for 30 ms
+/// after it, nothing can be said, since soles have not settled, and what a landing does to the CoM is no push: what was
+/// felt is held for a fifth of the time for which it had been felt, 0.3 s at most, and fades then. A push that turns
+/// has lasted for as long as it would take to have given the impulse in its direction that was felt; a pause of 0.1 s
+/// does not end it.
 class PushObserver {
  public:
   /// @param velocity_W  of the CoM on the level, as measured [m/s]
   /// @param promised_W  acceleration since the last call, by the controller's model [m/s^2]; none: contacts are not
-  ///                    those of which the model thought, or it had no solution. The push fades then.
+  ///                    those of which the model thought, or it had no solution.
   /// @param dt_s        since the last call, positive
-  /// A velocity or an acceleration that no robot has, or that is no number, is left out. Throws InvalidInput for dt_s.
+  /// Of a velocity or an acceleration that no robot has, or that is no number, nothing can be said either. Throws
+  /// InvalidInput for dt_s.
   const FeltPush& update(const Eigen::Vector2d& velocity_W, const std::optional<Eigen::Vector2d>& promised_W,
                          double dt_s);
 
   const FeltPush& push() const { return push_; }
 
  private:
+  double set_poles(double dt_s);
+  void observe(const Eigen::Vector2d& velocity_W, const Eigen::Vector2d& promised_W, double dt_s);
+  void learn(const Eigen::Vector2d& noise_W, double dt_s);
+  void tell(double dead_m_s2, double dt_s);
+
   Eigen::Vector2d velocity_W_ = Eigen::Vector2d::Zero();      // v_hat
   Eigen::Vector2d acceleration_W_ = Eigen::Vector2d::Zero();  // a_hat
   Eigen::Vector2d impulse_W_ = Eigen::Vector2d::Zero();       // of what is felt, over the mass [m/s]
-  double felt_s_ = 0.0;                                       // for which anything is
-  double variance_ = 0.0;                                     // of v - v_hat [m^2/s^2]
-  double settled_s_ = 0.0;                                    // for which something has been promised
-  bool started_ = false;
+  double felt_s_ = 0.0, quiet_s_ = 0.0;                       // for which anything is, and nothing since
+  double settled_s_ = 0.0, unsure_s_ = 0.0;                   // for which something could be said, and not
+  double learnt_s_ = 0.0, variance_ = 0.0;                    // of the noise of v [m^2/s^2]
+  bool observed_ = false;                                     // anything yet
+  double q_ = 1.0;                                            // exp(-w dt)
   FeltPush push_;
 };
 
