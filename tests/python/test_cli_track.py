@@ -103,7 +103,7 @@ def test_a_hard_push_is_a_fall_with_code_1_and_a_run_to_look_at(capsys, file, tm
     assert (code, err) == (1, "")
     lines = out.splitlines()
     assert lines[0].startswith("flat  talos  fell after ")
-    assert "  not known to the controller  push of 700 N for 0.4 s at 0.10 s to the left" in lines
+    assert "  not told to the controller  push of 700 N for 0.4 s at 0.10 s to the left" in lines
     assert lines[-1] == f"Saved {saved}" and "base at the end" not in out
     recording = Recording.load(saved)
     assert recording.fell_at_s == recording.times_s[-1] < 1.6

@@ -193,6 +193,16 @@ def test_a_robot_that_had_to_stand_walks_on_to_its_goal(near, monkeypatch):
     assert run.online.goal_off_m < 0.02 and run.followed and "to the end" in str(run)
 
 
+def test_a_run_goes_on_until_its_last_push_is_over_and_its_end_was_held(near):
+    at_s = near.duration() + 1.5
+    run = mp.run(near, latency=LATENCY, push=(20.0, 0.1, at_s, 90.0), hold_s=0.3, self_contacts=False)
+    recording = run.recording
+    assert recording.times_s[-1] == pytest.approx(at_s + 0.1 + 0.3, abs=0.01)
+    impulse_W = np.diff(recording.times_s)[0] * recording.pushes_W.sum(axis=0)
+    np.testing.assert_allclose(impulse_W, [0.0, 2.0, 0.0], rtol=1e-5, atol=1e-12)
+    assert not run.measures.fell
+
+
 @pytest.mark.slow
 def test_a_robot_that_does_not_come_to_its_goal_says_so(near, monkeypatch):
     from mcplan.online.loop import STAND

@@ -55,7 +55,7 @@ def test_a_number_out_of_range_is_named(field, value):
         ("ground_shift_m", -0.2),
         ("hold_s", 0.0),
         ("seed", 7),
-        ("pushes", (Push(-40.0, 0.0, -1.0),)),
+        ("pushes", (Push(-40.0, 1.1, -1.0),)),
     ],
 )
 def test_the_ends_of_ranges_are_accepted(field, value):
@@ -103,11 +103,19 @@ def test_such_a_push_is_refused_before_anything_is_simulated():
 
 def test_a_push_acts_from_its_time_for_its_duration():
     push = Push(40.0, 0.2, 1.0)
-    for time_s, acts in ((0.0, False), (0.999, False), (1.0, True), (1.1, True), (1.199, True), (1.21, False)):
-        assert bool(push.force_W(time_s).any()) is acts
-        assert np.linalg.norm(push.force_W(time_s)) == pytest.approx(40.0 * acts)
+    for time_s, acts in ((0.0, 0.0), (0.998, 0.0), (0.999, 0.5), (1.0, 1.0), (1.1, 1.0), (1.198, 1.0), (1.21, 0.0)):
+        assert np.linalg.norm(push.force_W(time_s, 0.002)) == pytest.approx(40.0 * acts)
+
+
+@pytest.mark.parametrize(("duration_s", "at_s"), [(0.001, 0.301), (0.001, 0.3), (0.003, 0.301), (0.1, 0.2), (0.2, 0.1)])
+def test_the_impulse_of_a_push_is_its_own_whenever_it_begins(duration_s, at_s):
+    push, step_s = Push(100.0, duration_s, at_s), 0.002
+    forces = np.array([push.force_W(n * step_s, step_s) for n in range(300)])
+    assert step_s * np.linalg.norm(forces, axis=1).sum() == pytest.approx(100.0 * duration_s, rel=1e-5)
+    acts = np.linalg.norm(forces, axis=1) > 0.0
+    assert acts.sum() <= np.ceil(round(duration_s / step_s, 6)) + 1
 
 
 @pytest.mark.parametrize(("angle", "towards"), [(0, [1, 0, 0]), (90, [0, 1, 0]), (180, [-1, 0, 0]), (-90, [0, -1, 0])])
 def test_a_push_points_where_its_angle_says(angle, towards):
-    np.testing.assert_allclose(Push(10.0, 1.0, 0.0, angle).force_W(0.5), 10.0 * np.array(towards), atol=1e-12)
+    np.testing.assert_allclose(Push(10.0, 1.0, 0.0, angle).force_W(0.5, 0.002), 10.0 * np.array(towards), atol=1e-12)

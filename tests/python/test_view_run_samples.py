@@ -7,7 +7,15 @@ import pytest
 
 import recordings
 from mcplan.kinematics.urdf_model import load_model
-from mcplan.view.run_samples import SHORT, frame_indices, frames_of, simulated_intervals, stretches_of
+from mcplan.view.run_samples import (
+    SHORT,
+    frame_indices,
+    frames_of,
+    push_text,
+    pushes_of,
+    simulated_intervals,
+    stretches_of,
+)
 
 pytest.importorskip("pinocchio")
 
@@ -68,6 +76,22 @@ def test_stretches_are_all_of_the_true_and_nothing_else():
         again[start:stop] = True
         assert start == 0 or not active[start - 1]
     assert (again == active).all()
+
+
+def test_pushes_are_told_apart_that_overlap_and_begin_within_a_sample():
+    recording = recordings.walking()
+    ahead, left, rows = np.array([40.0, 0.0, 0.0]), np.array([0.0, 120.0, 0.0]), np.zeros_like(recording.pushes_W)
+    rows[10:60] += ahead
+    rows[60] += 0.3 * ahead
+    rows[30] += 0.5 * left
+    rows[31:40] += left
+    rows[80] = left
+    changed = dataclasses.replace(recording, pushes_W=rows)
+    found = pushes_of(changed)
+    assert found == [(10, 31), (31, 40), (40, 61), (80, 81)]
+    assert [push_text(changed, *push) for push in found] == [f"push of {n} N" for n in (40, 126, 40, 120)]
+    rows[:] = np.linspace(0.0, 1.0, len(rows))[:, None] * left  # one that varies
+    assert pushes_of(dataclasses.replace(recording, pushes_W=rows)) == [(1, len(rows))]
 
 
 def test_a_contact_lost_for_an_instant_is_one_contact_and_a_longer_loss_is_a_step():

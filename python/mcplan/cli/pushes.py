@@ -33,7 +33,7 @@ def require_within(pushes: Sequence[Push], end_s: float) -> None:
 
 def _push(text: str) -> Push:
     from mcplan.errors import InvalidOptions, shown
-    from mcplan.tracking.options import Push
+    from mcplan.tracking.options import PUSH_MAX_N, Push
 
     words = text.split(",")
     if len(words) != len(FIELDS):
@@ -48,5 +48,7 @@ def _push(text: str) -> Push:
             raise InvalidOptions(f"--push: {name}", "must be finite", word.strip())
         if number <= 0.0 and name in FIELDS[:2]:
             raise InvalidOptions(f"--push: {name}", "must be above 0", word.strip())
+        if number > PUSH_MAX_N and name == FIELDS[0]:
+            raise InvalidOptions(f"--push: {name}", f"must be at most {PUSH_MAX_N:g}", word.strip())
         numbers.append(number)
     return Push(*numbers)

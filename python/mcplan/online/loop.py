@@ -181,7 +181,7 @@ class Loop:
             dynamics.update(*state)
         if self.beside.watch is not None:
             self.beside.watch(now_s, state[0], self.plan.plan)
-        push = sum((p.force_W(now_s) for p in self._acting(now_s)), np.zeros(3))
+        push = sum((p.force_W(now_s, self.dt_s) for p in self._acting(now_s)), np.zeros(3))
         steps = round(self.dt_s / options.simulation_step_s)
         given = simulation.advance(command.torques, np.concatenate([push, np.zeros(3)]), steps)
         acting = Acting(given, forces, in_contact, np.zeros(6), push, touches)
@@ -341,14 +341,16 @@ class Loop:
                 self.tally.contact_changes += 1
 
     def _over(self, now_s: float) -> bool:
-        """Whether the plan under way has ended and its end was held."""
+        """Whether the plan under way has ended and its end was held, and so were pushes."""
         if self.ends:
             return True
         if self.online.command_at(now_s) or not np.isnan(self.online.duration_s):
             return False
         if self.aim.open or any(row[0] > now_s for row in (*self.online.goal, *self.online.command)):
             return False
-        return bool(now_s - self.plan.begins_s > self.plan.plan.duration() + self.options.hold_s)
+        ended_s = self.plan.begins_s + float(self.plan.plan.duration())
+        ended_s = max([ended_s, *(push.at_s + push.duration_s for push in self.options.pushes)])
+        return bool(now_s - ended_s > self.options.hold_s)
 
     def _result(self, n: int, fell_at: float, wall_s: float, interrupted: bool) -> RunResult:
         recording = replace(self.kept.recording(fell_at), true_scene=self.true_scene)

@@ -24,8 +24,8 @@ class OnlineMeasures:
         replans_late: Computations that took longer than the fixed latency; None: the latency was the measured one.
         oldest_plan_s: Largest time since the state was measured from which the plan under way was made [s], as long as
             steps lie ahead.
-        contact_changes: Contacts that were made and that the first plan did not have: none on that surface, by that
-            end-effector, within 5 cm.
+        contact_changes: Contacts that were made and that the first plan did not have: none of that end-effector within
+            5 cm.
         ground_felt: How often a surface was found to be higher, lower or more slippery than was known, by the feet on it.
         stops: How often the robot was brought to a stand since no plan came.
         goal_off_m: From the CoM to the goal at the end, on the level [m]; None: a command held then, or the walk was one of rhp.

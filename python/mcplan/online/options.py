@@ -38,7 +38,8 @@ class OnlineOptions:
             first of these times to the scene's goal, as without any.
         goal: Goals to walk to instead of the scene's, each from a time on: time [s], x, y in the world [m], heading [rad].
             Of commands and goals, what began last holds.
-        duration_s: Length of the run [s]; nan: the first plan and what the run holds it for, and 10 s under a command.
+        duration_s: Length of the run [s]; nan: until the goal is reached or pushes are over, and ``hold_s`` longer, twice that
+            of the first plan and 5 s at the latest, and 10 s under a command.
         wide_reach: Where no plan keeps legs within the robot's boxes, they may reach as far as their joints let them (see
             ``reach``).
         start_slack_s: Time within which what the measured state violates has to be made good, for a robot of human size.

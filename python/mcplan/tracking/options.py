@@ -23,6 +23,10 @@ def require_watch(watch: Watch | None) -> None:
 
 #: Least time step of MuJoCo [s]: 200 steps to a control step of the default length.
 SIMULATION_STEP_MIN_S = 1e-5
+#: Largest force of a push [N]: the weight of ten tonnes.
+PUSH_MAX_N = 1e5
+#: Share of a control step that is rounding.
+ROUNDING = 1e-6
 #: Largest gain and weight of the controller, a thousand times the largest default.
 GAIN_MAX = 1e6
 
@@ -32,8 +36,8 @@ class Push:
     """A force on the robot's base.
 
     Attributes:
-        force_N: Its size.
-        duration_s: How long it acts.
+        force_N: Its size, at most 1e5; one below 0 points the other way.
+        duration_s: How long it acts, above 0.
         at_s: When it begins.
         direction_deg: Where it points, in the ground plane: 0 forward (x of the world), 90 to the left.
     """
@@ -43,11 +47,14 @@ class Push:
     at_s: float
     direction_deg: float = 90.0
 
-    def force_W(self, time_s: float) -> np.ndarray:
-        """(3,) [N] at a time."""
+    def force_W(self, time_s: float, step_s: float) -> np.ndarray:
+        """(3,) mean [N] over a control step that begins at a time: the impulse is that of the push, whenever it begins."""
         angle = np.radians(self.direction_deg)
-        acts = self.at_s <= time_s < self.at_s + self.duration_s
-        return acts * self.force_N * np.array([np.cos(angle), np.sin(angle), 0.0])
+        acts_s = min(time_s + step_s, self.at_s + self.duration_s) - max(time_s, self.at_s)
+        share = float(np.clip(acts_s / step_s, 0.0, 1.0))
+        if share < ROUNDING or share > 1.0 - ROUNDING:  # sums of times are rounded
+            share = round(share)
+        return share * self.force_N * np.array([np.cos(angle), np.sin(angle), 0.0])
 
 
 @dataclass(frozen=True)
@@ -155,7 +162,9 @@ class Options:
             for item in fields(push):
                 value = getattr(push, item.name)
                 _require(f"pushes[{i}].{item.name}", "must be finite", value, bool(np.isfinite(value)))
-            _require(f"pushes[{i}].duration_s", "must not be negative", push.duration_s, push.duration_s >= 0)
+            _require(f"pushes[{i}].duration_s", "must be above 0", push.duration_s, push.duration_s > 0)
+            rule = f"must lie in -{PUSH_MAX_N:g} to {PUSH_MAX_N:g}, and not be 0"
+            _require(f"pushes[{i}].force_N", rule, push.force_N, 0 < abs(push.force_N) <= PUSH_MAX_N)
         for item in fields(self.gains):
             value = getattr(self.gains, item.name)
             holds = isinstance(value, int | float | np.integer | np.floating) and 0 <= value <= GAIN_MAX

@@ -78,7 +78,7 @@ def rows_of(result: Reported) -> list[tuple[str, str]]:
     ]
     disturbed = disturbances_text(options)
     if disturbed:
-        rows.append(("not known to the controller", disturbed))
+        rows.append(("not told to the controller", disturbed))
     return [*rows, ("controller", controller_text(result)), ("simulator", simulator_text(result))]
 
 

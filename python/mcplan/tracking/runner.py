@@ -230,7 +230,7 @@ def _run(
         if options.sensor_noise > 0.0:  # what is recorded is what the robot does, not what the controller reads
             dynamics = actual
             dynamics.update(*state)
-        push = sum((p.force_W(now) for p in options.pushes), np.zeros(3))
+        push = sum((p.force_W(now, desired.dt_s) for p in options.pushes), np.zeros(3))
         assist_W = assistance(dynamics, desired, n) if options.assist else np.zeros(6)
         given = simulation.advance(command.torques, assist_W + np.concatenate([push, np.zeros(3)]), steps)
         recorder.add(dynamics, Acting(given, forces, in_contact, assist_W, push, touches))

@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 
 #: [s] contacts that are lost for no longer are drawn as kept: a foot that rocks is not a step.
 SHORT = 0.04
+#: Changes of a force that acts, up to which each is drawn as a push of its own.
+MOST_PUSHES = 8
 
 
 @dataclass(frozen=True)
@@ -130,6 +132,29 @@ def stretches_of(active: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """First index and the one past the last of every stretch of True."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], active.astype(int), [0]])))
     return [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def pushes_of(recording: Recording) -> list[tuple[int, int]]:
+    """As stretches_of, of samples in which the same push acts, or the same several."""
+    force = recording.pushes_W
+    found: list[tuple[int, int]] = []
+    for start, stop in stretches_of(np.linalg.norm(force, axis=1) > 0.0):
+        changes = np.linalg.norm(np.diff(force[start:stop], axis=0), axis=1) > 1e-6
+        edges = [start, *(start + 1 + int(i) for i in np.flatnonzero(changes)), stop]
+        parts = list(zip(edges[:-1], edges[1:], strict=True))
+        if len(parts) > MOST_PUSHES:  # a force that varies
+            found.append((start, stop))
+            continue
+        # Single samples are those in which pushes begin and end.
+        longer = [part for part in parts if part[1] - part[0] > 1] or parts[:1]
+        begins = [start, *(part[0] for part in longer[1:])]
+        found += list(zip(begins, [*begins[1:], stop], strict=True))
+    return found
+
+
+def push_text(recording: Recording, start: int, stop: int) -> str:
+    """ "push of 250 N", of one of pushes_of(): half of the samples have as much."""
+    return f"push of {np.median(np.linalg.norm(recording.pushes_W[start:stop], axis=1)):.0f} N"
 
 
 def joined_stretches(active: NDArray[np.bool_], times_s: Array) -> list[tuple[int, int]]:

@@ -25,7 +25,7 @@ from mcplan.view.plan_drawing import (
     draw_forces,
 )
 from mcplan.view.robot_urdf import mesh_figure
-from mcplan.view.run_samples import RunFrames, frames_of, stretches_of
+from mcplan.view.run_samples import RunFrames, frames_of, push_text, pushes_of, stretches_of
 from mcplan.view.runs import Run, from_zero, ground_shift_of, recording_of, was_replanned
 from mcplan.view.scene_drawing import draw_surfaces, raised, surface_drawings
 from mcplan.view.shapes import ellipsoid, tube
@@ -182,11 +182,10 @@ def _draw_helpers(stage: Stage, frames: RunFrames, robot: Robot) -> list[str]:
 def _events(recording: Recording, fell_at_s: float) -> list[tuple[float, float, str, str]]:
     """Pushes, contacts that nobody planned, and the fall, for the timeline; the fall with its time of the run."""
     times = recording.times_s
-    pushed = np.linalg.norm(recording.pushes_W, axis=1)
     events = []
-    for start, stop in stretches_of(pushed > 0.0):
+    for start, stop in pushes_of(recording):
         until = float(times[min(stop, len(times) - 1)])
-        events.append((float(times[start]), until, PUSH, f"push of {pushed[start:stop].max():.0f} N"))
+        events.append((float(times[start]), until, PUSH, push_text(recording, start, stop)))
     shortest = 0.003 * float(times[-1])  # to be seen
     for touch in recording.touches:
         until = min(max(touch.end_s, touch.start_s + shortest), float(times[-1]))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mcplan.tracking import Recording
 from mcplan.view.colours import PUSH, TEXT
-from mcplan.view.run_samples import stretches_of
+from mcplan.view.run_samples import push_text, pushes_of, stretches_of
 from mcplan.view.runs import LEAST_S
 from mcplan.view.sheets import label, legend, support_patches
 
@@ -27,7 +27,7 @@ def shade_run(axes: Any, recording: Recording) -> None:
         for start, stop in stretches_of(count == contacts):
             until = times[min(stop, len(times) - 1)]
             axes.axvspan(times[start], until, color=patch.get_facecolor(), linewidth=0, zorder=0)
-    for start, stop in stretches_of(np.linalg.norm(recording.pushes_W, axis=1) > 0.0):
+    for start, stop in pushes_of(recording):
         axes.axvspan(times[start], times[min(stop, len(times) - 1)], color=PUSH, alpha=0.28, linewidth=0, zorder=0.5)
     if np.isfinite(recording.fell_at_s):
         axes.axvline(recording.fell_at_s, color=TEXT, linewidth=1.6)
@@ -45,9 +45,11 @@ def finish(figure: Figure, axes: Any, recording: Recording, lines: Any = None) -
     handles = lines.get_legend_handles_labels()[0] if lines is not None else []
     count = np.sum(recording.contacts_plan >= 0, axis=1)
     handles += [patch for number, patch in enumerate(support_patches()) if (count == number).any()]
-    largest = float(np.linalg.norm(recording.pushes_W, axis=1).max())
-    if largest > 0.0:
-        handles.append(Patch(color=PUSH, alpha=0.28, label=f"push of {largest:.0f} N"))
+    texts = {push_text(recording, *push) for push in pushes_of(recording)}
+    if texts:
+        largest = float(np.linalg.norm(recording.pushes_W, axis=1).max())
+        text = f"pushes of up to {largest:.0f} N" if len(texts) > 1 else texts.pop()
+        handles.append(Patch(color=PUSH, alpha=0.28, label=text))
     if np.isfinite(recording.fell_at_s):
         handles.append(Line2D([], [], color=TEXT, linewidth=1.6, label="fall"))
     if handles:

@@ -11,7 +11,7 @@ from mcplan.kinematics.samples import Interval, contact_intervals
 from mcplan.kinematics.urdf_model import load_model
 from mcplan.tracking import Recording
 from mcplan.view.colours import COM, PLANNED, PUSH, TEXT, end_effector_colours, plain
-from mcplan.view.run_samples import frames_of, stretches_of
+from mcplan.view.run_samples import frames_of, push_text, pushes_of
 from mcplan.view.sheets import label, legend, sheet
 
 if TYPE_CHECKING:
@@ -38,8 +38,8 @@ def plot_run_footholds(recording: Recording) -> Figure:
     colours = [plain(colour) for colour in end_effector_colours(robot)]
     corners = [_outline(robot, i) for i in (*planned, *made)]
     seen = np.vstack([*(outline for outline in corners), recording.com_W[:, :2]])
-    pushes = stretches_of(np.linalg.norm(recording.pushes_W, axis=1) > 0.0)
-    tails = [_tail(recording, start) for start, _ in pushes]
+    pushes = pushes_of(recording)
+    tails = [_tail(recording, *push) for push in pushes]
     seen = np.vstack([seen, *tails])
     low, high = seen.min(axis=0) - 0.08, seen.max(axis=0) + 0.08
     width = 11.0
@@ -67,12 +67,11 @@ def plot_run_footholds(recording: Recording) -> Figure:
     handles.append(Line2D([], [], color=plain(COM), linewidth=1.6, label="CoM"))
     handles.append(Line2D([], [], color=PLANNED, linestyle=(0, (3, 2)), label="as first planned"))
     for (start, stop), tail in zip(pushes, tails, strict=True):
-        force = recording.pushes_W[start]
         chart.annotate(
             "", recording.com_W[start, :2], tail, arrowprops={"arrowstyle": "-|>", "color": PUSH, "linewidth": 2.2}
         )
         lasts = recording.times_s[min(stop, len(recording.times_s) - 1)] - recording.times_s[start]
-        text = f"push of {np.linalg.norm(force):.0f} N for {lasts:.1f} s at {recording.times_s[start]:.1f} s"
+        text = f"{push_text(recording, start, stop)} for {lasts:.2g} s at {recording.times_s[start]:.4g} s"
         handles.append(Line2D([], [], color=PUSH, linewidth=2.2, label=text))
     chart.set_xlim(low[0], high[0])
     chart.set_ylim(low[1], high[1])
@@ -88,9 +87,9 @@ def _made_at(recording: Recording, start_s: float) -> str:
     return f"< {begins_s:.1f}" if 0.0 < begins_s and start_s <= begins_s else f"{start_s:.1f}"
 
 
-def _tail(recording: Recording, start: int) -> Array:
+def _tail(recording: Recording, start: int, stop: int) -> Array:
     """Where the arrow of a push begins that ends at the CoM [m]."""
-    force = recording.pushes_W[start, :2]
+    force = recording.pushes_W[(start + stop) // 2, :2]
     return np.asarray(recording.com_W[start, :2] - PUSH_M * force / np.linalg.norm(force))
 
 
