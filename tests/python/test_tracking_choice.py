@@ -51,7 +51,7 @@ def test_pushes_are_objects_or_four_numbers():
         ({"pushes": Push("hard", 0.2, 3.0)}, 'pushes[0].force_N: must be a number, got "hard"'),
         ({"pushes": [Push(40.0, 0.2, None)]}, "pushes[0].at_s: must be a number, got None"),
         ({"pushes": [(40.0, "x", 3.0, 0.0)]}, 'pushes[0].duration_s: must be a number, got "x"'),
-        ({"pushes": [(40.0, -1.0, 3.0, 0.0)]}, "pushes[0].duration_s: must not be negative, got -1.0"),
+        ({"pushes": [(40.0, -1.0, 3.0, 0.0)]}, "pushes[0].duration_s: must be above 0, got -1.0"),
     ],
 )
 def test_what_is_no_option_is_told_by_name(values, message):

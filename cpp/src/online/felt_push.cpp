@@ -56,7 +56,7 @@ const FeltPush& PushObserver::update(const Eigen::Vector2d& velocity_W,
   const bool known = measured && promised_W && promised_W->norm() < kAbsurd;
   settled_s_ = known ? settled_s_ + dt_s : 0.0;
   const double deviation_m_s2 = set_poles(dt_s);
-  if (settled_s_ > kSettles_s + dt_s) {
+  if (settled_s_ > std::max(kSettles_s, 1.5 * dt_s)) {
     observe(velocity_W, *promised_W, dt_s);
     unsure_s_ = 0.0;
   } else {
