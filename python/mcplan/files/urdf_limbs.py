@@ -44,7 +44,10 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...], so
         if model.nqs[joint] != 1:
             raise InvalidInput(f"joint {model.names[joint]}", "must have one angle and limits", "", source)
     locked = [j for j in range(2, model.njoints) if j not in own]  # joint 1 is the free base: its mass counts
-    reduced = pin.buildReducedModel(model, locked, posture)
+    try:
+        reduced = pin.buildReducedModel(model, locked, posture)
+    except ValueError as error:  # names that several links or joints have
+        raise InvalidInput("urdf", "must give every link and joint a name of its own", shown(str(error)), source) from None
     nominal = np.array([posture[model.idx_qs[j]] for j in own])
     lower, upper = reduced.lowerPositionLimit[7:].copy(), reduced.upperPositionLimit[7:].copy()
     free = upper - lower > _CONTINUOUS

@@ -19,6 +19,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+/// How far the base of a robot on points turns to either side as it walks [rad]. Chosen.
+constexpr double kSways = 0.35;
+
 /// Level pose of the base: where its CoM is above, and its heading.
 struct Pose {
   Vector2d position = Vector2d::Zero();
@@ -268,21 +271,33 @@ class Follow {
   std::vector<double> times_;
 };
 
-/// The ratio of the command at which no foot is asked for strides that are longer than its reach box.
+/// The heading at at_s. Soles that land by then have it; of a robot on points there is but the base's, which sways:
+/// where the command does not turn it is that of the plan before, where the two differ by no more than that.
+double heading_at(const Rest& rest, const Robot& robot, const Pose& pose, double at_s, double yaw_rate) {
+  for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e)
+    if (is_foot(robot, e) && robot.end_effectors[e].half_size.minCoeff() > 0.0) return pose.yaw;
+  const double now = rest.plan.knots.front().base_rpy.z();
+  const double off = std::remainder(rest.plan.scene.goal.yaw - now, 2.0 * M_PI);
+  if (yaw_rate == 0.0) return std::abs(off) < kSways ? now + off : now;
+  return now + yaw_rate * at_s;
+}
+
+/// The ratio of the command at which no foot is asked for strides that are longer than its reach box; a step that is
+/// aslant, or turns, is as long as the ellipsoid in that box allows.
 double ratio_of_strides(const Robot& robot, const VelocityCommand& command, const Similarity& similarity) {
   const Vector2d box_s = phase_duration_of(robot, similarity);
   double ratio = 1.0;
   int feet = 0;
   for (const EndEffector& end : robot.end_effectors) feet += end.kind == "foot";
   const double between_s = feet * (swing_duration_of(box_s) + box_s[0]);
+  const double part = feet > 2 ? kCrawlStride : kCommandStride;
   for (const EndEffector& end : robot.end_effectors) {
     if (end.kind != "foot") continue;
-    for (int i = 0; i < 2; ++i) {
-      const double stride = between_s * std::abs(command.velocity_B[i]);
-      const double part = feet > 2 ? kCrawlStride : kCommandStride;
-      const double stride_max = part * (end.reach_max_B[i] - end.reach_min_B[i]);
-      if (stride > stride_max) ratio = std::min(ratio, stride_max / stride);
-    }
+    const Vector2d turning = command.yaw_rate * Vector2d(-end.nominal_B.y(), end.nominal_B.x());
+    const Vector2d stride = between_s * (command.velocity_B + turning);
+    const Vector2d stride_max = part * (end.reach_max_B - end.reach_min_B).head<2>();
+    const double length = stride.cwiseQuotient(stride_max).norm();
+    if (length > 1.0) ratio = std::min(ratio, 1.0 / length);
   }
   return ratio;
 }
@@ -330,7 +345,8 @@ double walk_on(Rest& rest, Scene& scene, const Robot& robot, const VelocityComma
       std::min(ratio_of_strides(robot, command, similarity), turn > kHeadingAhead ? kHeadingAhead / turn : 1.0);
   for (const double shorter : {1.0, 0.75, 0.5, 0.25, 0.0}) {
     const double ratio = shorter * strides;
-    const Way way(pose, at_s, command, ratio, end_s, stop_s);
+    const Pose from{pose.position, heading_at(rest, robot, pose, at_s, ratio * command.yaw_rate)};
+    const Way way(from, at_s, command, ratio, end_s, stop_s);
     if (ratio > 0.0 && !finds_ground(rest, scene, robot, way.at(end_s))) continue;
     Follow(rest, scene, robot, way).run();
     scene.goal = stance_of(rest, scene, robot, way.at(end_s));

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "mcplan/ddp/plan.hpp"
 #include "mcplan/ddp/replan.hpp"
 #include "mcplan/robot/robot_files.hpp"
@@ -123,4 +125,30 @@ TEST_CASE("a command that is too fast for legs is followed at a lower velocity, 
       slow = went;
     }
   }
+}
+
+TEST_CASE("a stride that is aslant is as long as the ellipsoid in the reach box allows") {
+  const Ahead ahead({{2.0, 0.0}, 0.0}), aside({{0.0, 2.0}, 0.0}), both({{2.0, 2.0}, 0.0});
+  const double x = 1.0 / ahead.ratio, y = 1.0 / aside.ratio;
+  CHECK(both.ratio == doctest::Approx(1.0 / std::sqrt(x * x + y * y)));
+  const Ahead turning({{2.0, 0.0}, 0.5});
+  CHECK(turning.ratio < ahead.ratio);
+}
+
+TEST_CASE("a robot on points goes on in its heading, however its base sways, and turns at the command's rate") {
+  const Robot robot = load_robot("go2");
+  const Scene flat = load_scene("flat");
+  const Plan plan = ddp::plan(flat, robot).plan;
+  const auto goal_yaw = [&](double base_yaw, double yaw_rate) {
+    Rest rest = rest_of(plan, plan.duration() - 0.01);
+    rest.plan.knots.front().base_rpy.z() = base_yaw;
+    Scene scene = flat;
+    CHECK(walk_on(rest, scene, robot, {{0.05, 0.0}, yaw_rate}, 6) == 1.0);
+    return scene.goal.yaw;
+  };
+  CHECK(goal_yaw(0.2, 0.0) == doctest::Approx(0.0));
+  CHECK(goal_yaw(-1.2, 0.0) == doctest::Approx(-1.2));  // it was turned
+  const double turned = goal_yaw(0.2, 0.15);
+  CHECK(turned > 0.2 + 0.15 * 0.5);
+  CHECK(turned < 0.2 + 0.15 * 2.0);
 }
