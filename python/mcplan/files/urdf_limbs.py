@@ -47,7 +47,9 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...], so
     try:
         reduced = pin.buildReducedModel(model, locked, posture)
     except ValueError as error:  # names that several links or joints have
-        raise InvalidInput("urdf", "must give every link and joint a name of its own", shown(str(error)), source) from None
+        raise InvalidInput(
+            "urdf", "must give every link and joint a name of its own", shown(str(error)), source
+        ) from None
     nominal = np.array([posture[model.idx_qs[j]] for j in own])
     lower, upper = reduced.lowerPositionLimit[7:].copy(), reduced.upperPositionLimit[7:].copy()
     free = upper - lower > _CONTINUOUS
