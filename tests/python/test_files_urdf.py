@@ -232,3 +232,15 @@ def test_links_and_joints_that_do_not_exist_are_named(tmp_path, ends, posture, m
     with pytest.raises(mp.InvalidInput) as error:
         robot_from_urdf(str(path), ends, posture=posture)
     assert message in str(error.value)
+
+
+def test_a_joint_and_a_link_of_one_name_are_told(tmp_path):
+    path = tmp_path / "biped.urdf"
+    leg = ONE_LEG[ONE_LEG.index('<link name="thigh"') : ONE_LEG.index("</robot>")]
+    other = leg
+    for name in ("thigh", "shank", "hip", "knee"):
+        other = other.replace(f'"{name}"', f'"{name}_2"')
+    path.write_text(ONE_LEG.replace("</robot>", other + "</robot>").replace('"thigh"', '"hip"'))
+    with pytest.raises(mp.InvalidInput) as error:
+        robot_from_urdf(str(path), (End("foot", "shank"), End("foot_2", "shank_2")), posture={"hip": -0.5}, step=0.1)
+    assert "urdf: must give every link and joint a name of its own" in str(error.value) and "hip" in str(error.value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -46,10 +47,10 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...], so
     locked = [j for j in range(2, model.njoints) if j not in own]  # joint 1 is the free base: its mass counts
     try:
         reduced = pin.buildReducedModel(model, locked, posture)
-    except ValueError as error:  # names that several links or joints have
-        raise InvalidInput(
-            "urdf", "must give every link and joint a name of its own", shown(str(error)), source
-        ) from None
+    except ValueError:
+        names = Counter(str(frame.name) for frame in model.frames)
+        several = ", ".join(name for name, count in names.items() if count > 1)
+        raise InvalidInput("urdf", "must give every link and joint a name of its own", shown(several), source) from None
     nominal = np.array([posture[model.idx_qs[j]] for j in own])
     lower, upper = reduced.lowerPositionLimit[7:].copy(), reduced.upperPositionLimit[7:].copy()
     free = upper - lower > _CONTINUOUS
