@@ -188,6 +188,7 @@ def test_a_robot_made_from_a_urdf_names_it_from_where_it_lies(tmp_path, monkeypa
     monkeypatch.chdir(tmp_path)
     words = ["robots", "--from-urdf", "robots/urdf/leg.urdf", "--end", "foot=tip:foot", "-o"]
     assert main([*words, "robots/leg.toml"]) == 0
+    assert "note: no trunk, robots/urdf/leg.urdf has no visual shapes of it" in capsys.readouterr().err
     assert 'urdf = "urdf/leg.urdf"' in Path("robots/leg.toml").read_text()
     monkeypatch.chdir("/")
     assert load_robot(tmp_path / "robots" / "leg.toml").urdf == str(folder / "leg.urdf")

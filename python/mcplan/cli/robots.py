@@ -222,6 +222,9 @@ def _from_urdf(given: _Given, output: Path | None, faces: int | None, seed: int)
     parsed, srdf_path = tuple(_parse_end(text) for text in ends), str(srdf) if srdf else None
     angles = dict(_parse_angle(text) for text in posture) if posture else None
     robot = robot_from_urdf(source, parsed, srdf=srdf_path, posture=angles, seed=seed)
+    if not robot.trunk:
+        reason = f"{source} has no visual shapes of it, or its meshes were not found"
+        print(f"note: no trunk, {reason}: plans keep a ball about the CoM out of solids alone", file=sys.stderr)
     words = ["mcplan robots --from-urdf", source, *(f"--end {text}" for text in ends)]
     words += [f"--srdf {srdf}"] if srdf else []
     words += [f"--posture {text}" for text in posture]
