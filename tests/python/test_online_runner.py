@@ -463,3 +463,15 @@ def test_more_plans_than_a_file_can_have_are_refused_when_they_are_saved(plan, t
     with pytest.raises(mp.errors.InvalidInput, match=f"plans: must be at most {most - 1}, which a file can have"):
         run.save(tmp_path / "more.npz")
     assert not (tmp_path / "more.npz").exists()
+
+
+def test_a_robot_that_is_turned_from_its_goal_says_so(plan):
+    run = mp.run(plan, replanning=False, duration=0.1, self_contacts=False)
+    assert abs(run.online.goal_turned_rad) < 0.01
+    ended = dataclasses.replace(run.online_options, duration_s=float("nan"))
+    there = dataclasses.replace(run, online=dataclasses.replace(run.online, goal_off_m=0.02), online_options=ended)
+    assert there.followed
+    turned = dataclasses.replace(there, online=dataclasses.replace(there.online, goal_turned_rad=-0.33))
+    assert not turned.followed
+    assert "0.02 m and 0.33 rad off its goal after 0.10 s, without a fall" in str(turned)
+    assert turned.online.as_dict()["goal_turned_rad"] == -0.33

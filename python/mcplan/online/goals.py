@@ -226,3 +226,7 @@ class Aim:
         """From a place of the CoM to the goal, on the level [m]."""
         goal = self.goal or self._of_scene
         return float(np.hypot(goal[0] - place_W[0], goal[1] - place_W[1]))
+
+    def turned_rad(self, heading: float) -> float:
+        """From a heading to that of the goal, the shorter way round [rad]."""
+        return turn_to(self.goal or self._of_scene, heading)

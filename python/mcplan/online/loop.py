@@ -368,17 +368,20 @@ class Loop:
         options, online = self.options, self.online
         if self.beside.steer is not None:
             options, online = as_it_was(options, online, n * self.dt_s)
-        tally = self.tally.measures(self.ground.felt, self._goal_off_m(n * self.dt_s))
-        tally = replace(tally, kept_from_s=self.kept.from_s)
+        off_m, turned_rad = self._goal_off(n * self.dt_s)
+        tally = self.tally.measures(self.ground.felt)
+        tally = replace(tally, goal_off_m=off_m, goal_turned_rad=turned_rad, kept_from_s=self.kept.from_s)
         return RunResult(recording, measures, options, interrupted, tally, online, tuple(self.kept.plans))
 
-    def _goal_off_m(self, now_s: float) -> float | None:
-        """From the CoM to the goal, on the level [m]; None: none is walked to."""
+    def _goal_off(self, now_s: float) -> tuple[float | None, float | None]:
+        """From the CoM to the goal, on the level [m], and the turn to its heading [rad]; None: none is walked to."""
         commanded = self.online.command_at(now_s) is not None or self.online.engine == "rhp"
         if commanded:
-            return None
+            return None, None
         self.actual.update(*self.simulation.state())  # what the controller reads has noise
-        return self.aim.off_m(self.actual.com_W)
+        base_WB = self.actual.base_WB
+        heading = float(np.arctan2(base_WB[1, 0], base_WB[0, 0]))
+        return self.aim.off_m(self.actual.com_W), self.aim.turned_rad(heading)
 
     def _end_posture(self) -> Array:
         """Where the plan under way ends; not a number where the robot could not take that posture up."""

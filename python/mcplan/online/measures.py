@@ -29,6 +29,7 @@ class OnlineMeasures:
         ground_felt: How often a surface was found to be higher, lower or more slippery than was known, by the feet on it.
         stops: How often the robot was brought to a stand since no plan came.
         goal_off_m: From the CoM to the goal at the end, on the level [m]; None: a command held then, or the walk was one of rhp.
+        goal_turned_rad: From the heading of the base to that of the goal at the end, to the left [rad]; None likewise.
         kept_from_s: Time of the run at which recording and plans begin, and measures of tracking, where only the end of the run
             is kept.
         statuses: How many computations had which status.
@@ -47,6 +48,7 @@ class OnlineMeasures:
     ground_felt: int = 0
     stops: int = 0
     goal_off_m: float | None = None
+    goal_turned_rad: float | None = None
     kept_from_s: float = 0.0
     statuses: dict[str, int] = field(default_factory=dict)
     reasons: dict[str, int] = field(default_factory=dict)
@@ -79,8 +81,8 @@ class Tally:
         if update.status == "error":
             self.first_error = self.first_error or update.message
 
-    def measures(self, ground_felt: int = 0, goal_off_m: float | None = None) -> OnlineMeasures:
-        """The numbers; how often the ground was felt to be another, and how far the goal is, the loop knows."""
+    def measures(self, ground_felt: int = 0) -> OnlineMeasures:
+        """The numbers; how often the ground was felt to be another the loop knows, and where the goal is."""
         took_ms = 1e3 * np.array(self.took_s)
         some = len(took_ms) > 0
         fixed = not np.isnan(self.fixed_latency_s)
@@ -95,7 +97,6 @@ class Tally:
             contact_changes=self.contact_changes,
             ground_felt=ground_felt,
             stops=self.stops,
-            goal_off_m=goal_off_m,
             statuses=dict(sorted(self.statuses.items())),
             reasons=dict(sorted(self.reasons.items())),
             first_error=self.first_error,

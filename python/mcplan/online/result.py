@@ -21,8 +21,8 @@ from .velocities import CommandReached, commands_reached, reached_text
 
 #: What stands in files of a plan that was followed, beside the plan.
 _OF_PLANS = ("begins_s", "from_s", "took_s", "message", "com_shift_W")
-#: A goal is reached from this distance of the CoM on, over its nominal height.
-REACHED_RATIO = 0.1
+#: A goal is reached from this distance of the CoM on, over its nominal height, and this turn [rad].
+REACHED_RATIO, REACHED_RAD = 0.1, 0.2
 
 
 @dataclass(frozen=True)
@@ -71,10 +71,12 @@ class RunResult(TrackingResult):
         return commands_reached(self.recording, self.online_options)
 
     def _short_of_goal(self) -> bool:
-        """Whether the robot had its time and stands away from its goal."""
+        """Whether the robot had its time and stands away from its goal, or turned from it."""
         reached_m = REACHED_RATIO * self.recording.plan.robot.com_height
-        off_m = self.online.goal_off_m
-        return off_m is not None and bool(np.isnan(self.online_options.duration_s)) and off_m > reached_m
+        off_m, turned_rad = self.online.goal_off_m, self.online.goal_turned_rad or 0.0
+        if off_m is None or not np.isnan(self.online_options.duration_s):
+            return False
+        return off_m > reached_m or abs(turned_rad) > REACHED_RAD
 
     def _parts(self) -> RunParts:
         parts = super()._parts()
@@ -101,9 +103,10 @@ class RunResult(TrackingResult):
         how = "replanned" if self.online_options.replanning else "one plan"
         ended = ending(self)
         if self.completed and self._short_of_goal():
-            ended = (
-                f"{self.online.goal_off_m:.2f} m off its goal after {self.measures.completed_s:.2f} s, without a fall"
-            )
+            turned_rad = self.online.goal_turned_rad or 0.0
+            turned = f" and {abs(turned_rad):.2f} rad" if abs(turned_rad) > REACHED_RAD else ""
+            off = f"{self.online.goal_off_m:.2f} m{turned} off its goal"
+            ended = f"{off} after {self.measures.completed_s:.2f} s, without a fall"
         title = f"{recording.plan.scene.name}  {recording.simulated_robot.name}  {ended} ({how})"
         rows = [row for row in rows_of(self) if row[0] != "base at the end"]
         kept_from_s = self.online.kept_from_s
