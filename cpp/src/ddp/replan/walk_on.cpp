@@ -271,8 +271,9 @@ class Follow {
   std::vector<double> times_;
 };
 
-/// The heading at at_s. Soles that land by then have it; of a robot on points there is but the base's, which sways:
-/// where the command does not turn it is that of the plan before, where the two differ by no more than that.
+/// The heading at at_s [rad], at a rate of turning [rad/s]. Soles that land by then have it; of a robot on points there
+/// is but the base's, which sways: where the command does not turn it is that in which the plan before ends, where the
+/// two differ by no more than that.
 double heading_at(const Rest& rest, const Robot& robot, const Pose& pose, double at_s, double yaw_rate) {
   for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e)
     if (is_foot(robot, e) && robot.end_effectors[e].half_size.minCoeff() > 0.0) return pose.yaw;
