@@ -51,7 +51,7 @@ constexpr double kDearPhase = 0.03;
 /// Measured on rooms with a door aside: 58 phases fail, 70 are enough.
 constexpr double kCrawlPhases[] = {1.0, 1.2, 1.45};
 /// Tracked point feet are planned this far inside their surface, in CoM heights (chosen: the radius of Go2's foot), and
-/// legs from a measured state this much shorter than they can be [m] (measured: docs/online.md, "Pushes that are felt").
+/// legs in replans this much shorter than they can be [m] (measured: docs/online.md, "Pushes that are felt").
 constexpr double kPointMargin = 0.08, kLegMargin_m = 0.01;
 
 // Routes.
