@@ -162,6 +162,29 @@ def block(half: float, height: float) -> mp.Scene:
     return past(slab("block", (1.0 - half, 1.0 + half), (-half, half), height, height))
 
 
+def block_across(height: float, length: float) -> mp.Scene:
+    """A block across the whole way, and floor on both sides of it."""
+    end = 0.6 + length
+    ground = [
+        slab("near", (-1.0, 0.6), (-1.0, 1.0)),
+        slab("block", (0.6, end), (-1.0, 1.0), height, height),
+        slab("far", (end, end + 3.0), (-1.0, 1.0)),
+    ]
+    return scene(ground, (end + 1.0, 0.0, 0.0), on="far")
+
+
+def uneven(seed: int) -> mp.Scene:
+    """Strips across the way, each a little higher or lower than the floor."""
+    random, x = np.random.default_rng(seed), 0.3
+    ground = [slab("near", (-1.0, x), (-0.8, 0.8))]
+    for i in range(random.integers(3, 6)):
+        length, height = random.uniform(0.3, 0.7), random.uniform(-0.1, 0.12)
+        ground.append(slab(f"strip_{i}", (x, x + length), (-0.8, 0.8), height, 0.3))
+        x += length
+    ground.append(slab("far", (x, x + 2.0), (-0.8, 0.8)))
+    return scene(ground, (x + 0.6, 0.0, 0.0), on="far")
+
+
 def bar(width: float, height: float) -> mp.Scene:
     """A bar across the whole floor, too narrow to stand on."""
     return past(solid("bar", (1.0 - width / 2, 1.0 + width / 2), (-4.0, 4.0), height))
@@ -215,6 +238,11 @@ SCENES: dict[str, Callable[[], mp.Scene]] = {
     "wall_4": lambda: past(solid("wall", (0.95, 1.05), (-2.0, 2.0), 2.0)),
     **{f"door_{width:g}": partial(door, width) for width in (0.8, 1.2)},
     **{f"block_{half:g}_{height:g}": partial(block, half, height) for half in (0.15, 0.3) for height in (0.15, 0.3)},
+    **{
+        f"across_{height:g}_{length:g}": partial(block_across, height, length)
+        for height, length in ((0.08, 0.8), (0.1, 0.6), (0.14, 0.4))
+    },
+    **{f"uneven_{seed}": partial(uneven, seed) for seed in range(1, 7)},
     **{
         f"bar_{width:g}_{height:g}": partial(bar, width, height)
         for width, height in ((0.05, 0.1), (0.1, 0.1), (0.1, 0.2))

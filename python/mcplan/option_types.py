@@ -75,7 +75,7 @@ class DdpOptions(TypedDict, total=False):
     """Options of the contact-sequence search; the defaults serve all built-in scenes."""
 
     phases: int
-    """Number of phases N; 0: 18, or more where the way asks for more steps."""
+    """Number of phases N; 0: those of its footsteps, or 18, or more where the way asks for more."""
     method: Literal["standard", "paper"] | ddp.Method
     """Which search runs."""
     model: Literal["wrench", "lipm"] | ddp.Model
@@ -118,7 +118,7 @@ class DdpOptions(TypedDict, total=False):
     whole_sequence_moves: bool
     """Look for better contact sequences as a whole, by dynamic programming, where it pays."""
     stepping_guesses: bool
-    """Begin with end-effectors that step in turn, too, beside what the search finds."""
+    """Begin with end-effectors that step in turn, and with footsteps over the ground, beside what the search finds."""
     allow_flight: bool
     """Allow phases without any contact. Where steps lead to the goal they come last even so."""
     min_contacts: int

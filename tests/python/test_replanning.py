@@ -72,7 +72,7 @@ def test_in_flight_what_is_left_of_the_flight_may_be_as_short_as_it_is(fraction)
 
 
 def test_a_plan_that_asks_too_much_of_a_joint_is_solved_on_with_rows_for_it():
-    plan = mp.plan("flat", "talos").plan
+    plan = mp.plan("flat", "talos", phases=26).plan
     knot, contacts = state_at(plan, 6.46)
     knot.com_velocity_W = knot.com_velocity_W + np.array([-0.216, -0.268, 0.0])
     lines: list[str] = []

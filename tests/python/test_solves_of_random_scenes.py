@@ -21,7 +21,7 @@ def _flights(plan: mp.Plan) -> int:
 
 def test_a_near_miss_is_mended_at_once_and_hardly_dearer() -> None:
     """Restarts used to follow, for 6 s, and a plan at ten times the cost."""
-    result, verdicts = _solved(20007, "talos")
+    result, verdicts = _solved(20007, "talos", stepping_guesses=False)
     assert "violates" in verdicts[0] and "accepted" in verdicts[1]
     costs = [float(line.split()[3].rstrip(":")) for line in verdicts]
     assert costs[0] <= costs[1] <= 1.25 * costs[0]
@@ -30,8 +30,8 @@ def test_a_near_miss_is_mended_at_once_and_hardly_dearer() -> None:
 
 def test_a_walk_that_strains_is_planned_in_more_phases_too() -> None:
     """In 22 phases steps are as long as the legs allow, and cost twenty times as much."""
-    result, _ = _solved(20113, "g1")
-    few, _ = _solved(20113, "g1", phases=22)
+    result, _ = _solved(20113, "g1", stepping_guesses=False)
+    few, _ = _solved(20113, "g1", phases=22, stepping_guesses=False)
     assert len(result.plan.phases) > 22
     assert result.report.cost < 0.1 * few.report.cost
 
@@ -66,7 +66,7 @@ def test_a_near_miss_of_a_restart_is_mended() -> None:
         goal=mp.model.Stance(position_W=[1.2, 0.0, 0.15], contacts={"foot": "platform"}),
     )
     lines: list[str] = []
-    result = mp.plan(scene, "g1", logger=lambda _, line: lines.append(line))
+    result = mp.plan(scene, "g1", stepping_guesses=False, logger=lambda _, line: lines.append(line))
     assert result.report.status == mp.Status.solved and mp.check(result.plan).ok()
     assert result.report.cost < 0.5
     assert "violates clearance" in next(line for line in lines if line.startswith("plan of"))

@@ -17,7 +17,7 @@ from mcplan.tracking.link_clearance import LINK_DEPTH, link_findings
 
 @pytest.fixture(scope="module")
 def walk():
-    return mp.plan("flat", "talos").plan
+    return mp.plan("flat", "talos", phases=26).plan
 
 
 def with_block(plan, x, y, z):

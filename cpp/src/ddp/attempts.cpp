@@ -214,6 +214,27 @@ Ending Attempts::crawl() {
   return late(ending);
 }
 
+Ending Attempts::walk(const GuessedSteps& steps, int again) {
+  Incumbent start;
+  start.sequence = sequence_of(problem_, steps);
+  if (start.sequence.empty()) return Ending::no_sequence;
+  Tuning tuning = first_;
+  tuning.clear_swings = true;
+  start.trajectory = guess_of(problem_, start.sequence, steps, tuning);
+  keep(start, tuning);
+  Ending ending = attempt_and_mend({{start}}, tuning);
+  for (int i = 0; i < again && ending == Ending::done && !best_->solved() && !last_.sequence.empty(); ++i) {
+    const bool caught = best_->finished() && best_->finished()->worst.name == "clearance";
+    if (!caught && (tuning.hold_joints || !asks_too_much_of_joints())) break;
+    if (caught) tuning.extra_margin += further_inside();
+    tuning.hold_joints = tuning.hold_joints || !caught;
+    ending = attempt_and_mend({{last_, 0.0, true}}, tuning);
+  }
+  if (ending == Ending::done) ending = hold_limits(ending, tuning);
+  if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);
+  return late(ending);
+}
+
 Ending Attempts::run(const Incumbent* warm) {
   Ending ending = Ending::done;
   const ContactSequence sequence = initial(search_, first_, ending);

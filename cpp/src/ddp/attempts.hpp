@@ -6,6 +6,7 @@
 
 #include "ddp/best_plan.hpp"
 #include "ddp/ending.hpp"
+#include "ddp/guessed_steps.hpp"
 #include "ddp/problem.hpp"
 #include "ddp/search.hpp"
 #include "mcplan/base/deadline.hpp"
@@ -28,6 +29,10 @@ class Attempts {
 
   /// End-effectors in turns and nothing else, once more with footholds further inside where a swing has caught an edge.
   Ending crawl();
+
+  /// From these footsteps, with swings held out of solids, and so often again with footholds further inside where one
+  /// has caught an edge.
+  Ending walk(const GuessedSteps& steps, int again);
 
   /// Go on from a plan that the checker rejects by little, for what it has `missed`, until it accepts one, with the
   /// plan's sequence, or the motion costs more than the dearest that is wanted.

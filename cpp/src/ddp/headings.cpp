@@ -44,4 +44,12 @@ double Headings::rate(double share) const {
 
 double Headings::turn_to_way() const { return std::max(std::abs(way_ - from_), std::abs(to_ - way_)); }
 
+std::pair<double, double> progress_at(const Course& course, int k, int steps, double total) {
+  const double s = static_cast<double>(k) / steps;
+  if (static_cast<int>(course.progress.size()) != steps + 1)
+    return {s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / total};
+  const bool inside = k > 0 && k < steps;
+  return {course.progress[k], inside ? 0.5 * (course.progress[k + 1] - course.progress[k - 1]) * steps / total : 0.0};
+}
+
 }  // namespace mcplan::ddp

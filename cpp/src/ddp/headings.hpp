@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "ddp/routes.hpp"
 
 namespace mcplan::ddp {
@@ -7,8 +10,13 @@ namespace mcplan::ddp {
 /// How the reference goes from the start to the goal.
 struct Course {
   Route route;
-  bool faces_way = false;  ///< the base turns to where it goes, and at the end to where the goal has it look
+  bool faces_way = false;             ///< the base turns to where it goes, and at the end to where the goal has it look
+  std::vector<double> progress = {};  ///< share of the way at each knot; a cubic where the problem has other phases
 };
+
+/// The share of the way at knot k of so many steps that last `total`, and its rate: what the course says, or a cubic
+/// (Tazaki, sec. III-A).
+std::pair<double, double> progress_at(const Course& course, int k, int steps, double total);
 
 /// Where the base looks along a course: evenly from the start's yaw to the goal's, or first to the way, straight ahead
 /// or backwards, whichever asks for less turning, and last to the goal's; and with the turns of the route. Theory:

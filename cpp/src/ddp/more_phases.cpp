@@ -56,7 +56,7 @@ int WaysToGoal::first_phases(const Way& way) const {
 
 /// In as many phases as the way asks for. Where these are many, a restart takes long and has to be lucky at each of
 /// many steps: first the same is tried in more of them, with shorter steps, and near misses are mended.
-Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* beside) const {
+Found WaysToGoal::search_phases(const Way& way, Report& report, const Beside* beside) const {
   Found found{BestPlan(*scene_, *deadline_)};
   found.way = way;
   if (crawl_along(way, report, found, beside)) return found;
@@ -82,6 +82,18 @@ void WaysToGoal::improve(const Way& way, const BestPlan::Finished* plan, Report&
   const double dearest = only_if_cheaper ? plan->evaluation.cost : std::numeric_limits<double>::infinity();
   if (detour || way.over_bars) mend(report, found, dearest);
   if (only_if_cheaper ? strains(*plan) : detour) try_more_phases(report, found);
+}
+
+/// On two feet from footsteps; where those make no easy walk, by a search as well.
+Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* beside) const {
+  if (phases_given()) return search_phases(way, report, beside);
+  Walked walked = walk_along(way, report, beside);
+  const bool cut_short = walked.found.steps > 0 && !ended_by_itself(walked.found.ending);
+  if (walked.easy || cut_short) return std::move(walked.found);
+  Found found = search_phases(way, report, beside);
+  if (!better(walked.found.best.best(), found.best.best())) return found;
+  if (!ended_by_itself(found.ending)) walked.found.ending = found.ending;
+  return std::move(walked.found);
 }
 
 /// The same way in more phases, as if nothing had been found: the better plan counts.

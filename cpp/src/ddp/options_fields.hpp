@@ -97,7 +97,8 @@ struct Fields<ddp::Options> {
   static constexpr const char* meaning =
       "Options of the contact-sequence search; the defaults serve all built-in scenes.";
   static constexpr auto all = std::make_tuple(
-      field("phases", &Options::phases, "", "Number of phases N; 0: 18, or more where the way asks for more steps.")
+      field("phases", &Options::phases, "",
+            "Number of phases N; 0: those of its footsteps, or 18, or more where the way asks for more.")
           .at_least(0)
           .at_most(2000),
       field("method", &Options::method, "", "Which search runs."),
@@ -147,7 +148,8 @@ struct Fields<ddp::Options> {
       field("whole_sequence_moves", &Options::whole_sequence_moves, "",
             "Look for better contact sequences as a whole, by dynamic programming, where it pays."),
       field("stepping_guesses", &Options::stepping_guesses, "",
-            "Begin with end-effectors that step in turn, too, beside what the search finds."),
+            "Begin with end-effectors that step in turn, and with footsteps over the ground, beside what the search "
+            "finds."),
       field("allow_flight", &Options::allow_flight, "",
             "Allow phases without any contact. Where steps lead to the goal they come last even so."),
       field("min_contacts", &Options::min_contacts, "",

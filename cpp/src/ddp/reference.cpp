@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "ddp/constants.hpp"
 #include "ddp/costs/prism.hpp"
@@ -69,8 +70,8 @@ int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& t
   return std::clamp(2 * static_cast<int>(strides) + 2, kPaperPhases, kPhasesMax);
 }
 
-/// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index; along the course. End-
-/// effectors keep their place relative to the base where that turns.
+/// From start to goal at rest at both ends, tied to the step index; along the course. End-effectors keep their place
+/// relative to the base where that turns.
 void Problem::make_reference(const VectorXd& goal) {
   const double total = steps * duration_initial;
   const auto level = [](double yaw) { return rotation_from_rpy({0.0, 0.0, yaw}); };
@@ -84,9 +85,8 @@ void Problem::make_reference(const VectorXd& goal) {
   };
   reference.x.clear();
   for (int k = 0; k <= steps; ++k) {
-    const double s = static_cast<double>(k) / steps, blend = s * s * (3.0 - 2.0 * s);
+    const auto [blend, rate] = progress_at(course, k, steps, total);
     VectorXd x = start + blend * way;
-    const double rate = 6.0 * s * (1.0 - s) / total;
     x.segment<3>(layout.velocity()) = rate * way.segment<3>(layout.com());
     if (!route.empty()) {
       constexpr double kNear = 1e-3;

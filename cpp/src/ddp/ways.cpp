@@ -22,6 +22,9 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// What footsteps cost over those of an easy walk, at which their way is searched as well. Chosen.
+constexpr double kEasier = 0.95;
+
 /// Tell of a search that began after so many iterations as if it had come after all that the report has. False, and
 /// nothing is told, where the limit on iterations would have cut it short.
 bool append(Report& report, Report&& other, int before, const Options& options) {
@@ -38,15 +41,14 @@ bool append(Report& report, Report&& other, int before, const Options& options) 
   return true;
 }
 
-/// Call surfaces in rows from this one on as the scene does.
+}  // namespace
+
 void name_surfaces(Report& report, std::size_t first_row, const std::vector<int>& surfaces) {
   for (std::size_t i = first_row; i < report.history.size(); ++i)
     for (ContactState& state : report.history[i].sequence)
       for (int& surface : state)
         if (surface != kFree) surface = surfaces[surface];
 }
-
-}  // namespace
 
 /// Surfaces that the search looks at: those near the way, and those that are named.
 std::vector<int> WaysToGoal::surfaces_of(const Route& route, const Outlook& outlook) const {
@@ -291,6 +293,8 @@ Found WaysToGoal::search(Report& report) const {
     }
     if (!ended_by_itself(cut_short)) return;
     const bool any = best && best->best.ok();
+    // Other footsteps are worth a search where they are easier by more than what courses beside each other differ in.
+    if (any && way.brief && best->easy_walk && price_of(way) > kEasier * price_of(best->way)) return;
     const bool as_listed = !way.brief || (any && !best->way.longer);
     way.longer = way.brief && any && best->way.longer;
     way.brief = way.brief && any;
@@ -328,6 +332,7 @@ Found WaysToGoal::search(Report& report) const {
   // What was not looked at may have a plan.
   if (!ended_by_itself(cut_short) && !best->best.ok()) best->ending = cut_short;
   best->barrier = routes.barrier;
+  walk_at_last(report, *best);
   if (best->way.course.route.empty()) try_more_phases(report, *best);
   mend(report, *best, std::numeric_limits<double>::infinity());
   return std::move(*best);

@@ -34,6 +34,7 @@ struct Found {
   Way way = {};
   bool crawled = false;                 ///< also in more phases than the way asks for
   bool tried_more = false;              ///< in more phases than the way asks for
+  bool easy_walk = false;               ///< from footsteps
   std::vector<int> surfaces = {};       ///< that it has looked at
   std::optional<Barrier> barrier = {};  ///< why no ground leads to the goal
 };
@@ -43,6 +44,9 @@ bool ended_by_itself(Ending ending);
 
 /// Whether an accepted plan costs so much that steps as long as that strain the robot. A flight costs more by itself.
 bool strains(const BestPlan::Finished& found);
+
+/// Call surfaces in rows of the report from this one on as the scene does.
+void name_surfaces(Report& report, std::size_t first_row, const std::vector<int>& surfaces);
 
 /// The ways from the start of a scene to its goal, and a search along each. Theory: docs/theory/ddp.md, "Routes".
 class WaysToGoal {
@@ -77,6 +81,17 @@ class WaysToGoal {
   int more_phases(const Found& found) const;
   int first_phases(const Way& way) const;
   void try_more_phases(Report& report, Found& found, const Beside* beside = nullptr) const;
+  bool steps_freely() const;
+  double price_of(const Way& way) const;
+  Found walk_with(double stride_ratio, int again, const Way& way, Report& report, const Beside* beside) const;
+  /// What footsteps have led to; `easy`: there is no need to look for another plan.
+  struct Walked {
+    Found found;
+    bool easy = false;
+  };
+  Walked walk_along(const Way& way, Report& report, const Beside* beside) const;
+  void walk_at_last(Report& report, Found& found) const;
+  Found search_phases(const Way& way, Report& report, const Beside* beside) const;
   void mend(Report& report, Found& found, double dearest, const Beside* beside = nullptr) const;
   bool four_feet_stand() const;
   /// Ways to try, those that may lead to the goal, and others for want of a plan; `bars`: something low stands across.

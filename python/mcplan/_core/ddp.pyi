@@ -584,7 +584,7 @@ class Options:
     @property
     def phases(self) -> int:
         """
-        Number of phases N; 0: 18, or more where the way asks for more steps.
+        Number of phases N; 0: those of its footsteps, or 18, or more where the way asks for more.
         """
     @phases.setter
     def phases(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
@@ -640,7 +640,7 @@ class Options:
     @property
     def stepping_guesses(self) -> bool:
         """
-        Begin with end-effectors that step in turn, too, beside what the search finds.
+        Begin with end-effectors that step in turn, and with footsteps over the ground, beside what the search finds.
         """
     @stepping_guesses.setter
     def stepping_guesses(self, arg0: bool) -> None: ...

@@ -116,7 +116,9 @@ TEST_CASE("the next plan is made from the one taken over, by the planner's threa
 }
 
 TEST_CASE("what the planner's thread keeps of a plan that was solved is not looked at again") {
-  const Plan plan = ddp::plan(scenes::flat(), load_robot("talos")).plan;
+  ddp::Options longer;
+  longer.phases = 26;
+  const Plan plan = ddp::plan(scenes::flat(), load_robot("talos"), longer).plan;
   PlannerOptions options;
   options.replan.horizon = 6;
   Planner planner(plan, 0.0, options);

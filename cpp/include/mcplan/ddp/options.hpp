@@ -70,7 +70,7 @@ struct Weights {
 
 /// Options of the contact-sequence search. Defaults serve all built-in scenes.
 struct Options {
-  int phases = 0;  ///< N; 0: 18 as in the paper, or more where the way asks for more steps
+  int phases = 0;  ///< N; 0: as many as footsteps take, or 18 as in the paper, or more where the way asks for more
   Method method = Method::standard;
   Model model = Model::wrench;  ///< Method::paper always takes Model::lipm
   StiffnessInput stiffness_input = StiffnessInput::mu;

@@ -18,7 +18,11 @@ using Eigen::Vector3d;
 
 /// A walk of 26 phases.
 const Plan& walk() {
-  static const Plan plan = ddp::plan(scenes::flat(), load_robot("talos")).plan;
+  static const Plan plan = [] {
+    Options options;
+    options.phases = 26;
+    return ddp::plan(scenes::flat(), load_robot("talos"), options).plan;
+  }();
   return plan;
 }
 

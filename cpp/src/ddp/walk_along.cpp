@@ -1,0 +1,99 @@
+#include <limits>
+#include <utility>
+
+#include "ddp/attempts.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/guessed_steps.hpp"
+#include "ddp/ways.hpp"
+
+// A way on two feet from footsteps over its ground: docs/theory/ddp.md, "1. First guesses".
+namespace mcplan::ddp {
+namespace {
+
+/// Attempts from footsteps after the first, where none makes a walk. Chosen.
+constexpr int kWalksAgain = 2;
+/// A walk whose phases cost no more is as good as another one, and the cheapest of all that are tried good enough up to
+/// the second. Measured: phases of TALOS and the G1 cost 0.004 to 0.008 on floors, stairs and blocks, and of walks that
+/// cost up to 0.02 a phase a search found a cheaper one in 2 of 52, after five to twenty times as long.
+constexpr double kEasyPhase = 0.01, kGoodPhase = 0.02;
+/// Strides are so long, over those that a step is priced by: the first as plans on open ground have them. Ways in more
+/// phases have a step somewhere that such strides make dear: they begin with the second, and a good walk is enough.
+constexpr double kStrideRatios[] = {1.0, 0.75, 0.55};
+constexpr int kLongWalk = 100;
+
+bool costs_at_most(double a_phase, const std::optional<BestPlan::Finished>& found) {
+  return found && found->ok && found->evaluation.cost <= a_phase * static_cast<double>(found->plan.phases.size());
+}
+
+}  // namespace
+
+/// Whether footsteps may help at all.
+bool WaysToGoal::steps_freely() const {
+  return !earlier_ && options_->initial_sequence.empty() && options_->method != Method::paper &&
+         options_->stepping_guesses;
+}
+
+/// What the footsteps along a way cost, not what a motion does; infinite where there are none.
+double WaysToGoal::price_of(const Way& way) const {
+  const GuessedSteps steps =
+      guessed_steps(pose_within(0, way, 0, nullptr).problem, kStrideRatios[1], [this] { return deadline_->passed(); });
+  return steps.empty() ? std::numeric_limits<double>::infinity() : steps.price;
+}
+
+/// What footsteps with strides of this ratio lead to, in as many phases as they take where none are given.
+Found WaysToGoal::walk_with(double stride_ratio, int again, const Way& way, Report& report,
+                            const Beside* beside) const {
+  Found found{BestPlan(*scene_, *deadline_)};
+  found.way = way;
+  Posed posed = pose_within(0, way, options_->phases, beside);
+  const GuessedSteps steps = guessed_steps(posed.problem, stride_ratio, [this] { return deadline_->passed(); });
+  if (steps.empty() || steps.even || steps.phases() > kPhasesMax) return found;
+  found.way.course.progress = steps.progress(options_->phases > 0 ? options_->phases : steps.phases());
+  posed = pose_within(0, found.way, static_cast<int>(found.way.course.progress.size()) - 1, beside);
+  found.steps = posed.problem.steps;
+  found.surfaces = posed.surfaces;
+  const std::size_t before = report.history.size();
+  Attempts attempts(std::move(posed.problem), posed.surfaces, *deadline_, found.best, report);
+  found.ending = attempts.walk(steps, again);
+  name_surfaces(report, before, posed.surfaces);
+  found.best.settle(attempts.problem(), report);
+  return found;
+}
+
+/// The best of what footsteps lead to, up to the first that makes an easy walk; where none makes any, with further
+/// attempts, up to the first that does. Of robots that are tracked: the paper's plans are those of its own search. Even
+/// steps are what a search begins with, too, and past posts and through doors it has kept further away from these.
+WaysToGoal::Walked WaysToGoal::walk_along(const Way& way, Report& report, const Beside* beside) const {
+  Walked out{Found{BestPlan(*scene_, *deadline_)}};
+  if (!steps_freely() || !robot_->tracked) return out;
+  const bool far = first_phases(way) > kLongWalk;
+  const double enough = far ? kGoodPhase : kEasyPhase;
+  for (const int again : {0, kWalksAgain}) {
+    if (far && again == 0) continue;
+    for (const double ratio : kStrideRatios) {
+      if (far && ratio == kStrideRatios[0]) continue;
+      Found found = walk_with(ratio, again, way, report, beside);
+      if (found.steps == 0) return out;
+      const Ending ending = found.ending;
+      if (better(found.best.best(), out.found.best.best())) out.found = std::move(found);
+      out.found.ending = ending;
+      const bool over = again > 0 && !far && out.found.best.ok();
+      if (over || costs_at_most(enough, out.found.best.best()) || !ended_by_itself(ending)) break;
+    }
+    if (out.found.best.ok() || !ended_by_itself(out.found.ending) || way.brief) break;
+  }
+  out.easy = costs_at_most(kGoodPhase, out.found.best.best());
+  out.found.easy_walk = out.easy;
+  return out;
+}
+
+/// Where nothing has been begun with footsteps, and there is no plan or one that strains the robot: from them as well.
+void WaysToGoal::walk_at_last(Report& report, Found& found) const {
+  const bool begun_so = options_->phases == 0 && robot_->tracked;
+  if (begun_so || !steps_freely() || !ended_by_itself(found.ending)) return;
+  if (found.best.ok() && !strains(*found.best.best())) return;
+  Found walked = walk_with(kStrideRatios[0], kWalksAgain, found.way, report, nullptr);
+  if (better(walked.best.best(), found.best.best())) found = std::move(walked);
+}
+
+}  // namespace mcplan::ddp
