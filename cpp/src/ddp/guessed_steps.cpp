@@ -247,7 +247,7 @@ Trajectory guess_of(const Problem& problem, const ContactSequence& sequence, con
                     const Tuning& tuning) {
   Trajectory out = problem.initial_guess(sequence, tuning);
   const Layout& at = problem.layout;
-  const int first = guess.steps.front().l, second = guess.steps.size() > 1 ? guess.steps[1].l : first;
+  const int first = guess.steps[0].l, second = guess.steps[1].l;  // each foot steps to its goal
   Vector3d place[2] = {out.x.front().segment<3>(at.end(first)), out.x.front().segment<3>(at.end(second))};
   // Footstep i lands at knot 2 i + 2, and its foot is where it was until knot 2 i + 1.
   for (int k = 1; k < problem.steps; ++k) {
