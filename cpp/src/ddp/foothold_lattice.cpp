@@ -25,6 +25,8 @@ constexpr double kEase = 0.03, kLacking = 0.02;
 constexpr int kRounds = 4;
 /// What is lower than that stands in no foot's way.
 constexpr double kLow = 0.02;
+/// What hangs lower than that over a foothold is in the way of the leg: the height of the CoM.
+constexpr double kHeadroom = 1.0;
 /// What a turn of one rad counts along the course. Chosen: footholds are 11 degrees apart.
 constexpr double kTurned = 0.25;
 /// Steeper ground is none for feet.
@@ -173,7 +175,7 @@ FootholdLattice::Sole FootholdLattice::sole(int foot, const Vector3d& place, dou
   return out;
 }
 
-/// No solid stands up where the sole is.
+/// No solid stands up where the sole is, or hangs where the leg is.
 bool FootholdLattice::stands_free(int foot, const LatticePoint& foothold) const {
   for (const Vector2d& at : sole(foot, foothold.place, foothold.yaw, problem_->swing_room))
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
@@ -181,7 +183,7 @@ bool FootholdLattice::stands_free(int foot, const LatticePoint& foothold) const 
       if (static_cast<int>(i) == foothold.surface || !boxes_[i].contains(at) || polygon.normal_W().z() < kUpright)
         continue;
       const double top = height_at(polygon, at), over = top - foothold.place.z();
-      if (over > kLow && over - problem_->thickness[i] < kSpacing && outside_from_above(polygon, at) < 0.0)
+      if (over > kLow && over - problem_->thickness[i] < kHeadroom && outside_from_above(polygon, at) < 0.0)
         return false;
     }
   return true;

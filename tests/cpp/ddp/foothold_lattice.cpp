@@ -97,6 +97,25 @@ TEST_CASE("no foot stands where a solid stands up") {
   }
 }
 
+TEST_CASE("no foot stands where what hangs over it is in the way of the leg") {
+  for (const double height : {0.3, 0.6, 1.2}) {
+    mcplan::Scene scene = scenes::flat();
+    scene.surfaces = {scenes::rectangle("ground", -1.0, 3.0, -1.0, 1.0, 0.0)};
+    scene.surfaces.push_back(scenes::rectangle("shelf", 0.5, 0.9, -1.0, 1.0, height, "hand"));
+    scene.surfaces[1].thickness = 0.05;
+    scene.start.contacts = scene.goal.contacts = {{"foot", "ground"}};
+    const Problem problem(scene, scenes::humanoid44(), phases(18));
+    const FootholdLattice lattice(problem, {0, 1});
+    const auto [first, last] = lattice.between(0, -1.0, 10.0);
+    int below = 0;
+    for (int i = first; i < last; ++i) {
+      const double x = problem.units.length * lattice.at(0, i).place.x();
+      below += lattice.at(0, i).surface == 0 && x > 0.5 && x < 0.9;
+    }
+    CHECK((below > 0) == (height > 1.0));
+  }
+}
+
 TEST_CASE("a swing is lifted over what lies between, by what the shape of its lift says") {
   const double height = 0.12;
   const Problem problem(block(height), scenes::humanoid44(), phases(18));
