@@ -64,7 +64,7 @@ RELATIONS = (
     "must come before", "no body may be", "Did you mean", "must differ", "must be bodies", "may not stand", "must leave",
     "must be in contact", "lift it first", "already", "must keep", "must be that of", "right_foot must", "not below",
     "must not be in contact", "one of the surfaces", "must be -1", "must be an interval", "from not above",
-    "must not be there twice", "must be a leg", "must not be in no_clearance",
+    "must not be there twice", "must be a leg", "must be at most half of upper", "must not be in no_clearance",
 )  # fmt: skip
 
 

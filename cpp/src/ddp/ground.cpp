@@ -6,6 +6,7 @@
 
 #include "ddp/constants.hpp"
 #include "ddp/costs/prism.hpp"
+#include "ddp/leg_lines.hpp"
 #include "ddp/trunk_room.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "plan/solid_box.hpp"
@@ -53,6 +54,13 @@ Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& fro
     const auto [low, high] = std::minmax(part.from_B.z(), part.to_B.z());
     layers_.push_back({std::max(height_ + low - part.radius, rise_), height_ + high + part.radius - duck * height_,
                        std::max(std::abs(part.from_B.y()), std::abs(part.to_B.y())) + room});
+  }
+  for (const EndEffector& end : robot.end_effectors) {
+    const LimbLimits& leg = end.limb;
+    if (!leg.given() || !(leg.radius > 0.0)) continue;
+    const double hip = height_ + leg.hip_B.z();
+    layers_.push_back({std::max(hip - leg.upper, rise_), hip + leg.radius,
+                       std::abs(leg.hip_B.y()) + std::abs(leg.beside) + kLegRoom * leg.radius});
   }
   for (const EndEffector& end : robot.end_effectors) {
     if (robot.trunk.empty() || end.kind == "foot") continue;

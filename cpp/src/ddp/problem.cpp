@@ -196,7 +196,8 @@ EndLimits Problem::limits_of(const EndEffector& end) const {
   l.moment_max = end.max_moment / units.moment();
   l.limb = end.limb;
   for (Vector3d* length : {&l.limb.hip_B, &l.limb.ankle}) *length /= units.length;
-  for (double* length : {&l.limb.upper, &l.limb.lower, &l.limb.margin}) *length /= units.length;
+  for (double* length : {&l.limb.upper, &l.limb.lower, &l.limb.margin, &l.limb.radius, &l.limb.beside})
+    *length /= units.length;
   if (l.limb.given()) {
     const double longest = VirtualLeg::max_length({l.limb.upper, l.limb.lower}) - l.limb.margin;
     l.leg_max = longest;

@@ -115,6 +115,8 @@ class Problem {
   std::vector<Eigen::AlignedBox3d> solid_boxes;  ///< about the solids, where there are such
   std::vector<TrunkPart> trunk;                  ///< in units of length
   std::vector<std::vector<double>> trunk_rooms;  ///< that its line keeps: by part and solid of trunk_solids
+  std::vector<int> leg_solids;                   ///< and those near legs, of a robot whose legs are bodies
+  std::vector<std::vector<double>> leg_rooms;    ///< that their lines keep: by active end-effector and leg_solids
   std::vector<EndLimits> limits;                 ///< by active end-effector
   /// Active end-effectors with limb limits, and the sum of their nominal positions.
   struct Jointed {
@@ -228,6 +230,8 @@ class Problem {
   void find_standing_solids();
   void find_trunk_solids();
   void make_trunk_rooms();
+  void find_leg_solids();
+  void make_leg_rooms();
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };
 

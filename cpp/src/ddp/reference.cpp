@@ -114,6 +114,7 @@ void Problem::make_reference(const VectorXd& goal) {
   follow_ground();
   find_standing_solids();
   find_trunk_solids();
+  find_leg_solids();
 }
 
 void Problem::set_pace(double duration) {

@@ -6,7 +6,6 @@
 #include "plan/clearance.hpp"
 
 namespace mcplan::checks {
-namespace {
 
 using Eigen::Vector3d;
 
@@ -22,6 +21,8 @@ Vector3d hip_of(const Problem& problem, const Sample& sample, const LimbLimits& 
   }
   return com + sample.r_WB * from_com;
 }
+
+namespace {
 
 /// Angle at the ankle of a triangle of links and a leg of that length, by the law of cosines; the leg is taken as long
 /// as links allow at most.

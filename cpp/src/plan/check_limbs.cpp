@@ -1,8 +1,9 @@
+#include "check_limbs.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "check_internal.hpp"
 #include "plan/convex_min.hpp"
 #include "solid_box.hpp"
 
@@ -96,6 +97,7 @@ void Limbs::look(const Problem& problem, const Sample& sample, Findings& finding
   const Vector3d& com = sample.replay.com_W;
   look_around(problem, com);
   check_trunk(problem, sample, findings);
+  check_legs(problem, sample, findings);
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Vector3d& end = sample.at.end_effectors[l].position_W;
     Eigen::AlignedBox3d around(com);
@@ -123,16 +125,54 @@ void Limbs::check_trunk(const Problem& problem, const Sample& sample, Findings& 
                    {sample.phase, -1, sample.time_s});
   }
   for (const TrunkPart& part : problem.robot.trunk) {
-    const Vector3d from = com + sample.r_WB * part.from_B, along = sample.r_WB * (part.to_B - part.from_B);
-    Eigen::AlignedBox3d around(from);
-    around.extend(Vector3d(from + along));
-    for (int surface : near_) {
-      if (!(boxes_[surface].squaredExteriorDistance(around) < part.radius * part.radius)) continue;
-      // The distance from a convex body is convex along a line.
-      const auto away = [&](double s) { return distance_outside(problem.solids[surface], from + s * along); };
-      const double nearest = std::min({away(0.0), away(1.0), away(convex_min(away))});
-      findings.offer(StateLimit::trunk, part.radius - nearest, {sample.phase, -1, sample.time_s});
-    }
+    const Capsule capsule{com + sample.r_WB * part.from_B, sample.r_WB * (part.to_B - part.from_B), part.radius};
+    offer_capsule(problem, capsule, -1, StateLimit::trunk, {sample.phase, -1, sample.time_s}, findings);
+  }
+}
+
+/// radius - distance of a capsule's line from each of the solids about it but one.
+void Limbs::offer_capsule(const Problem& problem, const Capsule& capsule, int but, StateLimit limit, const Place& place,
+                          Findings& findings) const {
+  const auto& [from, along, radius] = capsule;
+  Eigen::AlignedBox3d around(from);
+  around.extend(Vector3d(from + along));
+  for (int surface : near_) {
+    if (surface == but || !(boxes_[surface].squaredExteriorDistance(around) < radius * radius)) continue;
+    // The distance from a convex body is convex along a line.
+    const auto away = [&](double s) { return distance_outside(problem.solids[surface], from + s * along); };
+    findings.offer(limit, radius - std::min({away(0.0), away(1.0), away(convex_min(away))}), place);
+  }
+}
+
+/// Thigh and upper half of the shank of a leg that bends at its knee, hip_of() above its ankle, in the plane in which
+/// the sole heads: with u = hip - ankle and links a above the knee and b below it, the knee is s = (u.u + b^2 - a^2) /
+/// (2 |u|) along u and sqrt(b^2 - s^2) ahead of it. What the foot stands on is beside its shank.
+void Limbs::check_legs(const Problem& problem, const Sample& sample, Findings& findings) const {
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    const EndEffector& end = problem.robot.end_effectors[l];
+    const LimbLimits& limb = end.limb;
+    if (!limb.given() || !(limb.radius > 0.0)) continue;
+    const FreeStretch* swing = sample.view->stretches[l];
+    const int surface = problem.surface(sample.phase, l);
+    Vector3d normal = Vector3d::UnitZ();
+    if (surface >= 0)
+      normal = problem.solids[surface].polygon.normal_W();
+    else if (swing != nullptr && swing->normal(swing->ratio(sample.time_s - swing->start_s)).norm() > 0.1)
+      normal = swing->normal(swing->ratio(sample.time_s - swing->start_s)).normalized();
+    const Eigen::Matrix3d sole = sole_frame(normal, sole_yaw(problem, sample, l));
+    const Vector3d ankle = sample.at.end_effectors[l].position_W + sole * limb.ankle;
+    const Vector3d u = hip_of(problem, sample, limb) - ankle;
+    const double length = std::max(u.norm(), std::abs(limb.upper - limb.lower));
+    const Vector3d heading = end.half_size.maxCoeff() > 0.0 ? Vector3d(sole.col(0)) : Vector3d(sample.r_WB.col(0));
+    const Vector3d left = u.cross(heading).normalized(), ahead = left.cross(u.normalized());
+    const double a = limb.upper, b = limb.lower, s = (length * length + b * b - a * a) / (2.0 * length);
+    const double lever = std::sqrt(std::max(b * b - s * s, 0.0));
+    const Vector3d knee = s * u.normalized() + (limb.bends_backward ? -lever : lever) * ahead;
+    const Vector3d beside = ankle + limb.beside * left;
+    const Capsule thigh{beside + u, knee - u, limb.radius}, shank{beside + knee, -0.5 * knee, limb.radius};
+    const Place place{sample.phase, l, sample.time_s};
+    offer_capsule(problem, thigh, -1, StateLimit::limb, place, findings);
+    offer_capsule(problem, shank, surface, StateLimit::limb, place, findings);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "check_laws.hpp"
+#include "check_limbs.hpp"
 #include "mcplan/base/error.hpp"
 #include "model/read.hpp"
 #include "plan_shape.hpp"

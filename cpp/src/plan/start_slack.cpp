@@ -6,6 +6,7 @@
 
 #include "base/base_rotation.hpp"
 #include "check_laws.hpp"
+#include "check_limbs.hpp"
 
 namespace mcplan::checks {
 namespace {

@@ -97,6 +97,11 @@ void require_limb(const EndEffector& e, const std::string& field) {
     throw InvalidRobot(field,
                        "must be a leg that is bent in the nominal stance, " + text(min) + " to " + text(max) + " m",
                        text(length) + " m from hip to ankle");
+  const double thickest = 0.5 * (limb.upper + limb.lower);
+  if (!(limb.radius <= thickest))
+    throw InvalidRobot(field + ".radius", "must be at most half of upper + lower", text(limb.radius));
+  if (!(std::abs(limb.beside) <= thickest))
+    throw InvalidRobot(field + ".beside", "must be at most half of upper + lower, left or right", text(limb.beside));
 }
 
 void require_trunk(const Robot& robot, const TrunkPart& part, const std::string& field) {

@@ -45,9 +45,9 @@ template <>
 struct Fields<LimbLimits> {
   static constexpr const char* name = "LimbLimits";
   static constexpr const char* meaning =
-      "What the main joints of a leg can do: a virtual leg of two links between hip and ankle that bend in the plane "
-      "in "
-      "which the sole heads.";
+      "What the main joints of a leg can do, and how thick it is: a virtual leg of two links between hip and ankle "
+      "that "
+      "bend in the plane in which the sole heads.";
   static constexpr auto all = std::make_tuple(
       field("hip_B", &LimbLimits::hip_B, "m", "Hip relative to the CoM in the nominal stance, axes of the base.")
           .in_files("hip")
@@ -64,6 +64,11 @@ struct Fields<LimbLimits> {
       field("margin", &LimbLimits::margin, "m",
             "By how much the hip may be elsewhere: levers are those of the worse leg.")
           .not_negative(),
+      field("radius", &LimbLimits::radius, "m",
+            "Of capsules from hip to knee and on to the middle of the lower link that keep out of solids; 0: none.")
+          .not_negative(),
+      field("beside", &LimbLimits::beside, "m",
+            "By how much the capsules' lines lie to the left of the joints, along the axis of the knee."),
       field("knee_torque", &LimbLimits::knee_torque, "N m", "Largest torque of the knee.").positive().or_infinite(),
       field("knee_speed", &LimbLimits::knee_speed, "rad/s", "Largest speed of the knee.").positive().or_infinite(),
       field("hip_torque", &LimbLimits::hip_torque, "N m", "Largest torque of the hip about its roll and pitch axes.")

@@ -562,7 +562,7 @@ class Polytope:
 
 class LimbLimits:
     """
-    What the main joints of a leg can do: a virtual leg of two links between hip and ankle that bend in the plane in which the sole heads.
+    What the main joints of a leg can do, and how thick it is: a virtual leg of two links between hip and ankle that bend in the plane in which the sole heads.
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -580,6 +580,8 @@ class LimbLimits:
         ankle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         bends_backward: bool = False,
         margin: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        radius: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        beside: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         knee_torque: typing.SupportsFloat | typing.SupportsIndex = ...,
         knee_speed: typing.SupportsFloat | typing.SupportsIndex = ...,
         hip_torque: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
@@ -608,6 +610,13 @@ class LimbLimits:
         """
     @bends_backward.setter
     def bends_backward(self, arg0: bool) -> None: ...
+    @property
+    def beside(self) -> float:
+        """
+        [m] By how much the capsules' lines lie to the left of the joints, along the axis of the knee.
+        """
+    @beside.setter
+    def beside(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def given(self) -> bool:
         """
@@ -662,6 +671,13 @@ class LimbLimits:
         """
     @margin.setter
     def margin(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def radius(self) -> float:
+        """
+        [m] Of capsules from hip to knee and on to the middle of the lower link that keep out of solids; 0: none.
+        """
+    @radius.setter
+    def radius(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def upper(self) -> float:
         """

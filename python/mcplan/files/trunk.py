@@ -5,16 +5,13 @@ What carries two end-effectors or more, or hangs from it without an end-effector
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mcplan._core import TrunkPart
-from mcplan.errors import InvalidInput
-from mcplan.files.urdf_packages import packaged_visuals
-from mcplan.files.urdf_reading import package_folders, read_urdf
+from mcplan.files.urdf_shapes import corners_of, visuals_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -47,7 +44,7 @@ def trunk_of(
     """
     import pinocchio as pin
 
-    geometry = _visuals(model, source)
+    geometry = visuals_of(model, source)
     if geometry is None:
         return []
     data, placed = model.createData(), geometry.createData()
@@ -59,39 +56,13 @@ def trunk_of(
     def points(carried: Any) -> Array:
         shapes = [i for i, item in enumerate(geometry.geometryObjects) if carried(item.parentJoint)]
         return np.vstack(
-            [np.empty((0, 3)), *(_points(geometry.geometryObjects[i], placed.oMg[i]) - com for i in shapes)]
+            [np.empty((0, 3)), *(corners_of(geometry.geometryObjects[i], placed.oMg[i]) - com for i in shapes)]
         )
 
     trunk = points(lambda joint: joint > 0 and limbs.isdisjoint(model.supports[joint]))
     if not len(trunk):
         return []
     return [_spine(trunk), *_shoulders(ends, own_joints, lambda joint: data.oMi[joint].translation - com, points)]
-
-
-def _visuals(model: Any, source: str) -> Any:
-    """The visual shapes; None where they cannot be read: a robot can be planned for without."""
-    import pinocchio as pin
-
-    path = Path(source)
-    try:
-        if not path.is_file():
-            return packaged_visuals(source)
-        text = read_urdf(path, InvalidInput).text
-        return pin.buildGeomFromUrdfString(model, text, pin.GeometryType.VISUAL, None, package_folders(path))
-    except Exception:  # of the file system or of Pinocchio's parsers
-        return None
-
-
-def _points(item: Any, placement: Any) -> Array:
-    """Corners of a shape: those of its mesh, or of the box about it."""
-    shape = item.geometry
-    if hasattr(shape, "vertices"):
-        corners = np.asarray(shape.vertices(), float) * np.asarray(item.meshScale)
-    else:
-        shape.computeLocalAABB()
-        box = np.array([shape.aabb_local.min_, shape.aabb_local.max_], float)
-        corners = np.array([[box[i, 0], box[j, 1], box[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
-    return corners @ placement.rotation.T + placement.translation
 
 
 def _spine(points: Array) -> TrunkPart:

@@ -21,6 +21,7 @@ from mcplan.errors import InvalidInput, did_you_mean, shown, written
 from mcplan.extras import require
 from mcplan.files.builtin import exists
 from mcplan.files.leg_geometry import legs_of
+from mcplan.files.leg_shape import add_leg_shapes
 from mcplan.files.limb_limits import add_limb_limits
 from mcplan.files.reach import HEADING_MAX, Limb, explore, headings_reached, largest_box
 from mcplan.files.reach_cut import LIFT, Cut, cut_of
@@ -130,9 +131,9 @@ def robot_from_urdf(
         posture=_posture_of(model, nominal),
         **_as_tracked(ends, com_height),
     )
-    legs = legs_of(model, nominal, ends, limbs)
-    if legs is not None:
+    if (legs := legs_of(model, nominal, ends, limbs)) is not None:
         add_limb_limits(robot, legs, ends, seed)
+        add_leg_shapes(robot, legs, source)
     return robot
 
 

@@ -8,7 +8,7 @@
 
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/plan/checker.hpp"
-#include "plan/fixtures.hpp"
+#include "plan/wrench_fixtures.hpp"
 
 namespace {
 
@@ -165,6 +165,63 @@ TEST_CASE("a part of the trunk nearer to a solid than its radius is a violation,
     nearest = std::max(nearest, z + 0.04 - (highest + 0.42));
   }
   CHECK(trunk_at(highest + 0.42, ahead, ahead).value == doctest::Approx(nearest).epsilon(0.02));
+}
+
+namespace {
+
+/// Two links that meet at the knee, as a search over where it may be finds it: `ahead` of the line from hip to ankle.
+Vector3d knee_by_search(const Vector3d& hip, const Vector3d& ankle, double upper, double lower) {
+  double nearest = 1.0;
+  Vector3d found = hip;
+  for (double angle = 0.0; angle < M_PI; angle += 1e-5) {  // of the shank, in the plane of the leg and x
+    const Vector3d knee = ankle + lower * Vector3d(std::cos(angle), 0.0, std::sin(angle));
+    const double miss = std::abs((hip - knee).norm() - upper);
+    if (miss < nearest && knee.x() > 0.5 * (hip.x() + ankle.x())) nearest = miss, found = knee;
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a thigh or a knee nearer to a solid than its radius is a violation, by as much") {
+  // On both feet at x = -0.015, hips above them: the knees are ahead.
+  Plan stand = stand_on_wrenches();
+  for (int foot : {left_foot, right_foot}) {
+    mcplan::LimbLimits& limb = stand.robot.end_effectors[foot].limb;
+    limb.hip_B = {-0.015, foot == left_foot ? 0.1 : -0.1, -0.05};
+    limb.upper = limb.lower = 0.4;
+    limb.ankle = {0.0, 0.0, 0.06};
+    limb.radius = 0.05;
+  }
+  const Vector3d com = stand.knots[0].com_W, hip = com + Vector3d(-0.015, 0.1, -0.05), ankle(-0.015, 0.1, 0.06);
+  const Vector3d knee = knee_by_search(hip, ankle, 0.4, 0.4);
+  const auto limb_at = [&](double x0, double y0, double y1, double top, double beside = 0.0) {
+    Plan plan = stand;
+    plan.robot.end_effectors[left_foot].limb.beside = beside;
+    mcplan::Surface post = rectangle("post", x0, x0 + 0.3, y0, y1, top);
+    post.thickness = 1e-3 + top;
+    post.end_effectors = {"hand"};
+    plan.scene.surfaces.push_back(post);
+    return found(mcplan::check(plan, plan.scene, plan.robot), "limb");
+  };
+  CHECK(limb_at(knee.x() + 0.06, 0.0, 0.2, 1.0).value == 0.0);
+  const mcplan::Violation before = limb_at(knee.x() + 0.02, 0.0, 0.2, 1.0);
+  CHECK(before.value == doctest::Approx(0.03).epsilon(0.01));
+  CHECK(before.value > before.tolerance);
+  CHECK(before.end_effector == "left_foot");
+  // Beside the leg, by its width; what is below the middle of the shank is a matter of soles.
+  CHECK(limb_at(0.0, 0.18, 0.3, 1.0).value <= 0.0);
+  CHECK(limb_at(0.0, 0.18, 0.3, 1.0, 0.05).value == doctest::Approx(0.02).epsilon(0.01));
+  CHECK(limb_at(0.0, 0.18, 0.3, 1.0, -0.05).value <= 0.0);
+  CHECK(limb_at(knee.x() - 0.02, 0.0, 0.2, 0.15).value == 0.0);
+  // A knee that bends backward is not there.
+  for (int foot : {left_foot, right_foot}) stand.robot.end_effectors[foot].limb.bends_backward = true;
+  CHECK(limb_at(knee.x() + 0.02, 0.0, 0.2, 1.0).value == 0.0);
+  for (int foot : {left_foot, right_foot}) {
+    stand.robot.end_effectors[foot].limb.bends_backward = false;
+    stand.robot.end_effectors[foot].limb.radius = 0.0;
+  }
+  CHECK(limb_at(knee.x() + 0.02, 0.0, 0.2, 1.0).value == 0.0);
 }
 
 TEST_CASE("a straight limb that passes through a solid is a warning with its place and time") {

@@ -23,7 +23,9 @@ constexpr int kReachCuts = 4;
 
 /// What the main joints of a leg can do, as functions of where its end-effector and hip are: a virtual leg of two links
 /// that bend in the plane of the hip, the ankle and the direction in which the sole heads (without a sole, in which the
-/// base does). Torques are those of the contact force alone, at rest. Theory: docs/theory/ddp.md, "Joint limits".
+/// base does). Torques are those of the contact force alone, at rest. Theory: docs/theory/ddp.md, "Joint limits". With
+/// a radius the leg is a body as well, which keeps out of solids: two capsules, from the hip to the knee and from there
+/// down half of the lower link.
 struct LimbLimits {
   Eigen::Vector3d hip_B = Eigen::Vector3d::Zero();  ///< [m] hip relative to the CoM, nominal stance
   double hip_shift = 0.0;  ///< [-] motion of the hip against the CoM over that of an end-effector with limits against
@@ -33,6 +35,8 @@ struct LimbLimits {
   Eigen::Vector3d ankle = Eigen::Vector3d::Zero();  ///< [m] from the end-effector to the ankle, axes of the sole
   bool bends_backward = false;                      ///< the knee is behind the line from hip to ankle
   double margin = 0.0;  ///< [m] by which the hip may be elsewhere: levers are those of the worse leg
+  double radius = 0.0;  ///< [m] of the capsules; 0: none
+  double beside = 0.0;  ///< [m] by which their lines lie to the left of the joints, along the axis of the knee
   double knee_torque = std::numeric_limits<double>::infinity();  ///< [N m]
   double knee_speed = std::numeric_limits<double>::infinity();   ///< [rad/s]
   Eigen::Vector2d hip_torque =

@@ -84,7 +84,7 @@ inline VectorXd values(const ddp::Problem& problem, const Writer& write, const V
 
 /// Check every row's gradient against differences and the value-only cost against the full one. Returns the number of
 /// rows; points whose set of active rows changes within the differences are passed over (0).
-inline int check_rows(const ddp::Problem& problem, const Writer& write, const VectorXd& z) {
+inline int check_rows(const ddp::Problem& problem, const Writer& write, const VectorXd& z, double tolerance = 1e-8) {
   constexpr double kStep = 1e-4;
   const int nx = problem.layout.nx(), nu = problem.layout.nu();
   Rows rows(problem.layout.nz(), true), value_only(problem.layout.nz(), false);
@@ -105,7 +105,7 @@ inline int check_rows(const ddp::Problem& problem, const Writer& write, const Ve
   for (int r = 0; r < rows.count(); ++r) {
     CAPTURE(r);
     const double size = 1.0 + rows.gradient(r).cwiseAbs().maxCoeff();
-    CHECK((rows.gradient(r) - expected.row(r).transpose()).cwiseAbs().maxCoeff() <= 1e-8 * size);
+    CHECK((rows.gradient(r) - expected.row(r).transpose()).cwiseAbs().maxCoeff() <= tolerance * size);
     if (rows.single(r) >= 0) CHECK(rows.gradient(r)[rows.single(r)] == 1.0);
   }
   return rows.count();
