@@ -10,8 +10,8 @@ namespace {
 /// hits the edge with swings of 0.3 s, and falls.
 constexpr double kLiftPace = 0.17;
 
-/// Swings of robots that are tracked take their time for higher footholds (not in the paper): h >= dz / kLiftPace, up to
-/// the longest phase.
+/// Swings of robots that are tracked take their time for higher footholds (not in the paper): h >= dz / kLiftPace, up
+/// to the longest phase.
 class LiftPace final : public CostTerm {
  public:
   LiftPace() : CostTerm("lift_pace", Scope::free, 60) {}
