@@ -157,8 +157,10 @@ void Limbs::check_legs(const Problem& problem, const Sample& sample, Findings& f
     Vector3d normal = Vector3d::UnitZ();
     if (surface >= 0)
       normal = problem.solids[surface].polygon.normal_W();
-    else if (swing != nullptr && swing->normal(swing->ratio(sample.time_s - swing->start_s)).norm() > 0.1)
-      normal = swing->normal(swing->ratio(sample.time_s - swing->start_s)).normalized();
+    else if (swing != nullptr)
+      normal = swing->normal(swing->ratio(sample.time_s - swing->start_s));
+    // Half way between opposite walls there is none.
+    normal = normal.norm() > 0.1 ? normal.normalized() : Vector3d::UnitZ();
     const Eigen::Matrix3d sole = sole_frame(normal, sole_yaw(problem, sample, l));
     const Vector3d ankle = sample.at.end_effectors[l].position_W + sole * limb.ankle;
     const Vector3d u = hip_of(problem, sample, limb) - ankle;

@@ -36,7 +36,6 @@ def add_leg_shapes(robot: Robot, urdf: LegModel, source: str) -> None:
         return
     data, placed = urdf.model.createData(), geometry.createData()
     pin.forwardKinematics(urdf.model, data, urdf.nominal)
-    pin.computeJointJacobians(urdf.model, data, urdf.nominal)
     pin.updateGeometryPlacements(urdf.model, data, geometry, placed)
     pin.updateFramePlacements(urdf.model, data)
     found: dict[str, tuple[float, float]] = {}
@@ -57,8 +56,10 @@ def add_leg_shapes(robot: Robot, urdf: LegModel, source: str) -> None:
         if end.name not in found or not end.limb.given:
             continue
         limb = end.limb
-        limb.radius = float(np.floor(radius * 1e3) / 1e3)
-        limb.beside = float(np.sign(limb.hip_B[1]) * max(np.floor((outward - radius) * 1e3) / 1e3, 0.0)) + 0.0
+        most = 0.5 * (limb.upper + limb.lower)  # that a robot may have: skirts are wider
+        limb.radius = float(np.floor(min(radius, most) * 1e3) / 1e3)
+        aside = np.floor(np.clip(outward - radius, 0.0, most) * 1e3) / 1e3
+        limb.beside = float(np.sign(limb.hip_B[1]) * aside) + 0.0
         end.limb = limb
     robot.end_effectors = listed
 

@@ -5,8 +5,7 @@
 namespace support {
 
 /// The paper's robot with all base axes alive and legs that are bodies, on a floor with a post beside the way.
-inline ddp::Problem with_legs_by_a_post(double radius = 0.06, bool soles = true,
-                                        ddp::Model model = ddp::Model::wrench) {
+inline ddp::Problem with_legs_by_a_post(double radius = 0.06, bool soles = true) {
   mcplan::Scene scene = scenes::flat();
   mcplan::Surface post = scenes::rectangle("post", 0.3, 0.5, 0.15, 0.35, 1.4, "hand");
   post.thickness = 1.4;
@@ -28,7 +27,14 @@ inline ddp::Problem with_legs_by_a_post(double radius = 0.06, bool soles = true,
     end.limb.radius = radius;
     end.limb.beside = end.nominal_B.y() > 0.0 ? 0.04 : -0.04;
   }
-  return ddp::Problem(scene, robot, phases(6, model));
+  return ddp::Problem(scene, robot, phases(6));
+}
+
+/// The end-effector whose nominal place is to the left: the feet come first.
+inline int left_foot_of(const ddp::Problem& problem) {
+  int foot = 0;
+  while (problem.limits[foot].nominal.y() < 0.0) ++foot;
+  return foot;
 }
 
 /// A state in which the CoM is at a place above the floor, legs beside the post, and a stride.

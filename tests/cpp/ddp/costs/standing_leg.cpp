@@ -9,8 +9,7 @@ using namespace support;
 TEST_CASE("legs in contact keep out of solids: gradients") {
   for (const bool soles : {true, false}) {
     const ddp::Problem problem = with_legs_by_a_post(0.06, soles);
-    int foot = 0;
-    while (problem.limits[foot].nominal.y() < 0.0) ++foot;
+    const int foot = left_foot_of(problem);
     const Writer legs = term(problem, "standing_leg", {2, foot, 0, 100.0, 3.0, 0.2});
     check_leg_rows(problem, legs, 5);
   }
@@ -26,8 +25,7 @@ TEST_CASE(
     const int nx = of.layout.nx();
     return cost(of, term(of, "standing_leg", about), z.head(nx), phase ? VectorXd(z.tail(of.layout.nu())) : VectorXd());
   };
-  int foot = 0;
-  while (problem.limits[foot].nominal.y() < 0.0) ++foot;
+  const int foot = left_foot_of(problem);
   const About about{2, foot, 0, 100.0, 3.0, 0.2};
   CHECK(price(problem, about, near) > 0.0);
   CHECK(price(problem, about, near, false) == 0.0);
