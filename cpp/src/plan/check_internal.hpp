@@ -342,8 +342,10 @@ class Surroundings {
   std::vector<Near> near_;                  ///< per end-effector
 };
 
-/// check_joints.cpp: where the hip of a leg with joint limits is [m].
-Eigen::Vector3d hip_of(const Problem& problem, const Sample& sample, const LimbLimits& limb);
+/// check_joints.cpp: where the hip of a leg with joint limits is [m], p + R (hip_B + shift moved_B), with moved_B the
+/// sum of R^T (p_m - p) - nominal_m over all legs with limits, in contact or not.
+Eigen::Vector3d feet_moved(const Problem& problem, const Sample& sample);
+Eigen::Vector3d hip_of(const Sample& sample, const LimbLimits& limb, const Eigen::Vector3d& feet_moved_B);
 
 /// check_joints.cpp: torques and speeds of the joints of legs in contact.
 class Joints {

@@ -9,27 +9,34 @@ namespace mcplan::checks {
 
 using Eigen::Vector3d;
 
-/// hip = p + R (hip_B + shift sum_m (R^T (p_m - p) - nominal_m)) over all legs with limits, in contact or not.
-Vector3d hip_of(const Problem& problem, const Sample& sample, const LimbLimits& limb) {
-  const Vector3d& com = sample.replay.com_W;
-  Vector3d from_com = limb.hip_B;
+Vector3d feet_moved(const Problem& problem, const Sample& sample) {
+  Vector3d from_com = Vector3d::Zero(), nominal = Vector3d::Zero();
   for (int m = 0; m < problem.end_effector_count(); ++m) {
-    const EndEffector& other = problem.robot.end_effectors[m];
-    if (!other.limb.given()) continue;
-    const Vector3d place = sample.r_WB.transpose() * (sample.at.end_effectors[m].position_W - com);
-    from_com += limb.hip_shift * (place - other.nominal_B);
+    const EndEffector& end = problem.robot.end_effectors[m];
+    if (!end.limb.given()) continue;
+    from_com += sample.at.end_effectors[m].position_W - sample.replay.com_W;
+    nominal += end.nominal_B;
   }
-  return com + sample.r_WB * from_com;
+  return sample.r_WB.transpose() * from_com - nominal;
+}
+
+Vector3d hip_of(const Sample& sample, const LimbLimits& limb, const Vector3d& feet_moved_B) {
+  return sample.replay.com_W + sample.r_WB * (limb.hip_B + limb.hip_shift * feet_moved_B);
 }
 
 namespace {
 
-/// Angle at the ankle of a triangle of links and a leg of that length, by the law of cosines; the leg is taken as long
-/// as links allow at most.
-double angle_at_ankle(const LimbLimits& limb, double length) {
-  const double a = limb.upper, b = limb.lower;
-  return std::acos(std::clamp((b * b + length * length - a * a) / (2.0 * b * length), -1.0, 1.0));
-}
+/// The knee of a triangle of links and a leg of that length, by the law of cosines: how far it is along the leg from
+/// the ankle, and beside the leg. The leg is taken as long as links allow at most.
+struct Knee {
+  Knee(const LimbLimits& limb, double length) {
+    const double a = limb.upper, b = limb.lower;
+    const double cosine = std::clamp((b * b + length * length - a * a) / (2.0 * b * length), -1.0, 1.0);
+    along = b * cosine;
+    beside = b * std::sqrt(1.0 - cosine * cosine);
+  }
+  double along, beside;  ///< [m]
+};
 
 }  // namespace
 
@@ -39,6 +46,7 @@ double angle_at_ankle(const LimbLimits& limb, double length) {
 /// leg.
 void Joints::check(const Problem& problem, const Sample& sample, Findings& findings) {
   last_.resize(problem.end_effector_count());
+  const Vector3d feet_moved_B = feet_moved(problem, sample);
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const EndEffector& end = problem.robot.end_effectors[l];
     const LimbLimits& limb = end.limb;
@@ -50,7 +58,7 @@ void Joints::check(const Problem& problem, const Sample& sample, Findings& findi
         mcplan::sole_frame(problem.solids[surface].polygon.normal_W(), sole_yaw(problem, sample, l));
     const Vector3d& position = sample.at.end_effectors[l].position_W;
     const Vector3d ankle = position + sole * limb.ankle;
-    const Vector3d leg = hip_of(problem, sample, limb) - ankle;
+    const Vector3d leg = hip_of(sample, limb, feet_moved_B) - ankle;
     const double length = leg.norm();
     const Vector3d along = leg / length;
     const Vector3d heading = has_sole ? Vector3d(sole.col(0)) : Vector3d(sample.r_WB.col(0));
@@ -61,9 +69,8 @@ void Joints::check(const Problem& problem, const Sample& sample, Findings& findi
     // A leg that is shorter by the margin has the longer lever, one that is longer the shorter.
     const double bend = limb.bends_backward ? -1.0 : 1.0;
     const double min_lever = kMinLeverRatio * std::min(limb.upper, limb.lower);
-    const double short_angle = angle_at_ankle(limb, length - limb.margin);
-    const Vector3d knee = ankle + limb.lower * (std::cos(short_angle) * along) +
-                          bend * std::max(limb.lower * std::sin(short_angle), min_lever) * ahead;
+    const Knee shorter(limb, length - limb.margin);
+    const Vector3d knee = ankle + shorter.along * along + bend * std::max(shorter.beside, min_lever) * ahead;
     const Vector3d &force = sample.forces_W[l], &moment = sample.moments_W[l];
     const auto offer_torque = [&](const Vector3d& axis, const Vector3d& joint, double limit) {
       if (std::isinf(limit)) return;
@@ -82,8 +89,8 @@ void Joints::check(const Problem& problem, const Sample& sample, Findings& findi
     Seen& last = last_[l];
     const double since = sample.since_start_s - last.since_start_s;
     if (last.phase == sample.phase && since > 0.0 && std::isfinite(limb.knee_speed)) {
-      const double middle = 0.5 * (length + last.length) + limb.margin;
-      const double lever = std::max(limb.lower * std::sin(angle_at_ankle(limb, middle)), min_lever);
+      const Knee middle(limb, 0.5 * (length + last.length) + limb.margin);
+      const double lever = std::max(middle.beside, min_lever);
       findings.offer(StateLimit::joint_speed, std::abs(length - last.length) / since / lever / limb.knee_speed - 1.0,
                      place);
     }

@@ -148,6 +148,7 @@ void Limbs::offer_capsule(const Problem& problem, const Capsule& capsule, int bu
 /// the sole heads: with u = hip - ankle and links a above the knee and b below it, the knee is s = (u.u + b^2 - a^2) /
 /// (2 |u|) along u and sqrt(b^2 - s^2) ahead of it. What the foot stands on is beside its shank.
 void Limbs::check_legs(const Problem& problem, const Sample& sample, Findings& findings) const {
+  const Vector3d feet_moved_B = feet_moved(problem, sample);
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const EndEffector& end = problem.robot.end_effectors[l];
     const LimbLimits& limb = end.limb;
@@ -163,7 +164,7 @@ void Limbs::check_legs(const Problem& problem, const Sample& sample, Findings& f
     normal = normal.norm() > 0.1 ? normal.normalized() : Vector3d::UnitZ();
     const Eigen::Matrix3d sole = sole_frame(normal, sole_yaw(problem, sample, l));
     const Vector3d ankle = sample.at.end_effectors[l].position_W + sole * limb.ankle;
-    const Vector3d u = hip_of(problem, sample, limb) - ankle;
+    const Vector3d u = hip_of(sample, limb, feet_moved_B) - ankle;
     const double length = std::max(u.norm(), std::abs(limb.upper - limb.lower));
     const Vector3d heading = end.half_size.maxCoeff() > 0.0 ? Vector3d(sole.col(0)) : Vector3d(sample.r_WB.col(0));
     const Vector3d left = u.cross(heading).normalized(), ahead = left.cross(u.normalized());
