@@ -59,10 +59,11 @@ def test_soles_come_up_higher_ahead_and_both_alike(name):
     right, left = robot.end_effectors[0], robot.end_effectors[1]
     assert right.reach_cut == left.reach_cut and right.reach_cut.given
     (normal,), (b,) = right.reach_cut.A, right.reach_cut.b
-    ahead, behind = ((b - normal[0] * x) / normal[2] for x in (right.reach_max_B[0], right.reach_min_B[0]))
+    low, high = right.usual_box()  # beyond it the face goes on, and the box is no higher
+    ahead, behind = ((b - normal[0] * x) / normal[2] for x in (high[0], low[0]))
     assert ahead == pytest.approx(right.reach_max_B[2], abs=2e-3)
     assert ahead > behind + 0.05 and behind > right.nominal_B[2]
-    assert uncut_top(right) == pytest.approx(behind)
+    assert uncut_top(right) == pytest.approx((b - normal[0] * right.reach_min_B[0]) / normal[2])
 
 
 def test_faces_that_cut_a_box_hold_what_they_say():

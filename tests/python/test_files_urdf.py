@@ -57,7 +57,7 @@ def test_nine_in_ten_random_points_of_every_reach_box_are_reached(loaded):
     for number, end in enumerate(robot.end_effectors):
         limb = limb_of(model, posture, setup.ends[number], setup.ends)
         holds = functools.partial(below_cut, end)
-        share = share_reached(limb, (end.reach_min_B, end.reach_max_B), count=60, seed=number, holds=holds)
+        share = share_reached(limb, end.usual_box(), count=60, seed=number, holds=holds)
         assert share >= 0.9, (robot.name, end.name, share)
 
 
@@ -66,7 +66,7 @@ def test_nine_in_ten_soles_turned_at_random_are_reached(loaded):
     for number, end in enumerate(robot.end_effectors):
         if end.half_size.any():
             limb = limb_of(model, posture, setup.ends[number], setup.ends)
-            box, holds = (end.reach_min_B, end.reach_max_B), functools.partial(below_cut, end)
+            box, holds = end.usual_box(), functools.partial(below_cut, end)
             share = share_reached(limb, box, 60, number, tuple(end.yaw_range), holds)
             assert share >= 0.9, (robot.name, end.name, share)
         else:

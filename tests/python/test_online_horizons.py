@@ -124,7 +124,7 @@ def test_reach_gives_way_to_a_measured_start_and_no_further(robot):
     same = reaching(robot, inside, 0.0)
     for foot in feet:
         one, other = robot.end_effectors[foot], same.end_effectors[foot]
-        assert list(one.reach_min_B) == list(other.reach_min_B) and list(one.reach_max_B) == list(other.reach_max_B)
+        np.testing.assert_array_equal(one.usual_box(), other.usual_box())
         assert np.array_equal(one.com_reach.b, other.com_reach.b)
 
 

@@ -57,7 +57,14 @@ void bind_robot(py::module_& m) {
   bind_polytope(m);
   py::class_<LimbLimits> limb = bind_fields<LimbLimits>(m);
   limb.def_property_readonly("given", &LimbLimits::given, "Whether limits are given.");
-  bind_fields<EndEffector>(m);
+  py::class_<EndEffector> end = bind_fields<EndEffector>(m);
+  end.def(
+      "usual_box",
+      [](const EndEffector& self) {
+        const Eigen::AlignedBox3d box = self.usual_box();
+        return std::make_pair(Eigen::Vector3d(box.min()), Eigen::Vector3d(box.max()));
+      },
+      "The reach box within usual_reach: its lower and upper corner [m].");
   bind_fields<TrunkPart>(m);
   py::class_<Robot> c = bind_fields<Robot>(m);
   c.def("end_effector_index", &Robot::end_effector_index, py::arg("end_effector_name"), "Index, or -1.");

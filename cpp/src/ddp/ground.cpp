@@ -36,7 +36,7 @@ Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& fro
   for (std::size_t e = 0; e < robot.end_effectors.size(); ++e) {
     if (from.contacts[e] < 0 || to.contacts[e] < 0) continue;
     const EndEffector& end = robot.end_effectors[e];
-    const Vector3d size = end.reach_max_B - end.reach_min_B;
+    const Vector3d size = end.usual_box().sizes();
     feet_.push_back(static_cast<int>(e));
     stride_ = std::min(stride_, size.x());
     rise_ = std::min(rise_, size.z());

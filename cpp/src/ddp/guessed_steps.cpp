@@ -39,6 +39,7 @@ constexpr double kGreed = 1.5;
 /// What a step of one foot beside the other may be.
 struct Strides {
   double ahead = 0.0, back = 0.0;              ///< from the other foot
+  double usual = 0.0;                          ///< likewise ahead, in the usual reach
   double least_width = 0.0, most_width = 0.0;  ///< between them
   double nominal_width = 0.0, side = 1.0;      ///< +1: the mover is the left one
   double rise = 0.0;                           ///< of a foot below the CoM over one that is as low as may be
@@ -50,6 +51,7 @@ Strides strides_of(const EndLimits& here, const EndLimits& there) {
   out.side = here.nominal.y() > there.nominal.y() ? 1.0 : -1.0;
   out.ahead = here.reach_max.x() - here.reach_min.x();
   out.back = 0.5 * out.ahead;
+  out.usual = here.usual_stride;
   const auto width = [&](double a, double b) { return out.side * (a - b); };
   const bool left = out.side > 0.0;
   out.nominal_width = width(here.nominal.y(), there.nominal.y());
@@ -118,7 +120,7 @@ class Path {
     node.cost = cost;
     node.from = from;
     const double left = lattice_->length() - lattice_->at(at.foot, at.landed).station;
-    open_.push({cost + kGreed * std::max(kCheapestRate * left / strides_[at.foot].ahead - 1.0, 0.0), key});
+    open_.push({cost + kGreed * std::max(kCheapestRate * left / strides_[at.foot].usual - 1.0, 0.0), key});
   }
 
   void expand(const At& at, Key key, double cost) {
@@ -146,7 +148,7 @@ class Path {
     const double width = most.side * (cosine * off.y() - sine * off.x());
     if (ahead > most.ahead || ahead < -most.back || width < most.least_width || width > most.most_width) return kNever;
     if (std::abs(next.yaw - stance.yaw) > kTurnStride || std::abs(off.z()) > kMostRise * most.rise) return kNever;
-    const Eigen::Vector4d ratios(ahead / (stride_ratio_ * most.ahead), (width - most.nominal_width) / most.box_width,
+    const Eigen::Vector4d ratios(ahead / (stride_ratio_ * most.usual), (width - most.nominal_width) / most.box_width,
                                  kHigh * off.z() / most.rise, kTurned * (next.yaw - stance.yaw));
     const double lift = lift_of(mover, from, to);
     const LatticePoint& last = lattice_->at(mover, from);

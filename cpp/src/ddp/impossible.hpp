@@ -26,6 +26,11 @@ std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& r
 /// other plan is ruled out by that, but all of a search that begins exactly at the stance. bound_stance.cpp
 std::optional<Impossible> start_beyond_reach(const Scene& scene, const Robot& robot, double tolerances);
 
+/// Of a leg that stands at the start, or at the goal with its feet in their nominal places: it is in a solid by more
+/// than so many tolerances of `clearance`. At the start all of a search that begins exactly at the stance is ruled out;
+/// at the goal nothing is, since feet may stand elsewhere. bound_legs.cpp
+std::optional<Impossible> leg_in_solid(const Scene& scene, const Robot& robot, bool at_goal, double tolerances);
+
 /// Of the goal, or of the start: the trunk would be in a solid. bound_trunk.cpp
 std::optional<Impossible> trunk_in_solid(const Scene& scene, const Robot& robot, bool at_goal);
 

@@ -87,11 +87,11 @@ void WaysToGoal::improve(const Way& way, const BestPlan::Finished* plan, Report&
 /// On two feet from footsteps; where those make no easy walk, by a search as well.
 Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* beside) const {
   if (phases_given()) return search_phases(way, report, beside);
-  Walked walked = walk_along(way, report, beside);
-  const bool cut_short = walked.found.steps > 0 && !ended_by_itself(walked.found.ending);
-  if (walked.easy || cut_short) return std::move(walked.found);
+  Walked walked{Found{BestPlan(*scene_, *deadline_)}};
+  if (!way.walk_known) walked = walk_near_and_far(way, report, beside);
+  if (walked.done()) return std::move(walked.found);
   Found found = search_phases(way, report, beside);
-  if (!better(walked.found.best.best(), found.best.best())) return found;
+  if (!better_walk(walked.found, found)) return found;
   if (!ended_by_itself(found.ending)) walked.found.ending = found.ending;
   return std::move(walked.found);
 }

@@ -1,6 +1,7 @@
 #include "ddp/over_bars.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -89,6 +90,14 @@ double sole_length(const Robot& robot) {
   return length;
 }
 
+/// Between two feet, beyond what is usual.
+double longest_step(const Robot& robot) {
+  double length = std::numeric_limits<double>::infinity();
+  for (const EndEffector& end : robot.end_effectors)
+    if (end.kind == "foot") length = std::min(length, end.reach_max_B.x() - end.reach_min_B.x());
+  return length;
+}
+
 /// A piece has room for a sole beside the edge that it was cut at.
 bool has_room(const std::vector<Vector3d>& piece, const Vector2d& outward, const Vector2d& point, double sole) {
   return std::any_of(piece.begin(), piece.end(),
@@ -116,7 +125,7 @@ std::vector<Bar> bars_across(const Scene& scene, const Robot& robot, double sole
     constexpr double kLevel = 0.999;
     if (holds_feet(surface, robot) || polygon.normal_W().z() < kLevel) continue;
     std::optional<Bar> bar = passage(polygon, from.com_W.head<2>(), to.com_W.head<2>());
-    if (!bar || bar->far - bar->near + sole_length(robot) > ground.stride()) continue;
+    if (!bar || bar->far - bar->near + sole_length(robot) > longest_step(robot)) continue;
     bar->solid = i;
     const double top = height_at(polygon, bar->middle);
     const auto stands_low = [&](const Surface& below) {

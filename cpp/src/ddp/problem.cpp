@@ -82,7 +82,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   base_rpy = from.base_rpy;
   start_yaw.assign(layout.end_effector_count(), from.yaw);
   goal_yaw = to.yaw;
-  make_foothold_margins();
+  make_foothold_margins(from.com_W, to.com_W);
   steps = options.phases > 0 ? options.phases : automatic_steps(from, to);
   start = state_of(from);
   for (int e : active) {
@@ -173,15 +173,31 @@ std::vector<std::vector<int>> Problem::make_ends() {
   return surfaces;
 }
 
+double Problem::reach_margin_m() const {
+  return options.method == Method::paper ? 0.0
+                                         : by_size(options.reach_margin_m, Options().reach_margin_m, similarity.length);
+}
+
+void Problem::set_box(EndLimits& l, const Eigen::AlignedBox3d& box) const {
+  // A box thinner than the margins keeps its middle.
+  const Vector3d middle = box.center(), margin = Vector3d::Constant(reach_margin_m());
+  l.reach_min = (box.min() + margin).cwiseMin(middle) / units.length;
+  l.reach_max = (box.max() - margin).cwiseMax(middle) / units.length;
+}
+
+void Problem::reach_far() {
+  for (std::size_t l = 0; l < limits.size(); ++l) {
+    const EndEffector& end = robot.end_effectors[active[l]];
+    set_box(limits[l], {end.reach_min_B, end.reach_max_B});
+  }
+}
+
 EndLimits Problem::limits_of(const EndEffector& end) const {
-  const double reach_margin_m = by_size(options.reach_margin_m, Options().reach_margin_m, similarity.length);
-  const Vector3d margin = Vector3d::Constant(options.method == Method::paper ? 0.0 : reach_margin_m);
+  const Vector3d margin = Vector3d::Constant(reach_margin_m());
   EndLimits l;
   l.nominal = end.nominal_B / units.length;
-  // A box thinner than the margins keeps its middle.
-  const Vector3d middle = 0.5 * (end.reach_min_B + end.reach_max_B);
-  l.reach_min = (end.reach_min_B + margin).cwiseMin(middle) / units.length;
-  l.reach_max = (end.reach_max_B - margin).cwiseMax(middle) / units.length;
+  set_box(l, end.usual_box());
+  l.usual_stride = l.reach_max.x() - l.reach_min.x();
   l.cuts = static_cast<int>(end.reach_cut.A.rows());
   for (int i = 0; i < l.cuts; ++i) {
     l.cut_A.row(i) = end.reach_cut.A.row(i);

@@ -65,6 +65,7 @@ struct EndLimits {
   Eigen::Vector3d moment_max;
   double yaw_min = 0.0, yaw_max = 0.0;  ///< [rad] of the sole against the base
   LimbLimits limb;                      ///< none where the options do without
+  double usual_stride = 0.0;            ///< length of the usual reach
   double leg_max = 0.0;                 ///< from hip to ankle, where there are limb limits
   bool balances = false;                ///< a point foot on which a robot that is tracked keeps its balance
 
@@ -204,6 +205,9 @@ class Problem {
   /// Start from a measured state instead of the scene's; `contacts` by active end-effector.
   void set_start(const Knot& state, const ContactState& contacts);
 
+  /// Let end-effectors reach all of their boxes, beyond what is usual of them.
+  void reach_far();
+
   /// End in a given state instead of at the scene's goal, before set_start(); `contacts` by active end-effector.
   void set_end(const Knot& state, const ContactState& contacts);
 
@@ -216,12 +220,15 @@ class Problem {
   void make_surfaces();
   std::vector<std::vector<int>> make_ends();
   EndLimits limits_of(const EndEffector& end) const;
+  double reach_margin_m() const;
+  void set_box(EndLimits& l, const Eigen::AlignedBox3d& box) const;
   double friction_ratio() const;
   std::vector<StateRule> make_state_rules() const;
   Eigen::VectorXd state_of(const ResolvedStance& stance) const;
   Eigen::VectorXd state_of(const Knot& knot) const;
   void make_slack();
-  void make_foothold_margins();
+  std::vector<std::vector<double>> headings_on_surfaces(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  void make_foothold_margins(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
   Eigen::Vector3d stride_of(int l) const;
   void make_reference(const Eigen::VectorXd& goal);

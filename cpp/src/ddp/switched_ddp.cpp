@@ -75,6 +75,7 @@ PlanResult SwitchedDdp::Impl::solve(const Plan* earlier) {
   report.version = MCPLAN_VERSION;
   std::optional<Impossible> impossible = why_impossible(scene, robot, false, options.allow_flight);
   if (!impossible && begins_at_stance()) impossible = start_beyond_reach(scene, robot, kAcceptable);
+  if (!impossible && begins_at_stance()) impossible = leg_in_solid(scene, robot, false, kAcceptable);
   if (impossible) {
     report.status = Status::infeasible;
     report.message = impossible->message;
@@ -143,8 +144,11 @@ std::string SwitchedDdp::Impl::message_of(Status status, const Found& found, con
     // Whoever stopped the search knows why there is no plan.
     const bool stopped = status == Status::time_limit || status == Status::interrupted;
     if (why.empty() && found.barrier && !stopped) why = text_of(*found.barrier, scene, robot.name);
+    // A leg that is in a solid at an end of the way is why there is none for it, whatever else there is on it.
+    if (const std::optional<Impossible> goal = leg_in_solid(scene, robot, true, 1.0)) why = goal->message;
     if (begins_at_stance())
-      if (const std::optional<Impossible> start = start_beyond_reach(scene, robot, 1.0)) why = start->message;
+      for (const auto& start : {leg_in_solid(scene, robot, false, 1.0), start_beyond_reach(scene, robot, 1.0)})
+        if (start) why = start->message;
     if (!why.empty()) message << "; " << why;
   }
   return message.str();

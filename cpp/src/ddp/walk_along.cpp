@@ -3,6 +3,7 @@
 
 #include "ddp/attempts.hpp"
 #include "ddp/constants.hpp"
+#include "ddp/far_reach.hpp"
 #include "ddp/guessed_steps.hpp"
 #include "ddp/ways.hpp"
 
@@ -20,12 +21,21 @@ constexpr double kEasyPhase = 0.01, kGoodPhase = 0.02;
 /// phases have a step somewhere that such strides make dear: they begin with the second, and a good walk is enough.
 constexpr double kStrideRatios[] = {1.0, 0.75, 0.55};
 constexpr int kLongWalk = 100;
+/// What a walk with steps beyond the usual reach costs at most, over one within it, where neither is easy. Chosen: legs
+/// that are stretched have little left to balance with.
+constexpr double kFarRatio = 0.8;
 
 bool costs_at_most(double a_phase, const std::optional<BestPlan::Finished>& found) {
   return found && found->ok && found->evaluation.cost <= a_phase * static_cast<double>(found->plan.phases.size());
 }
 
 }  // namespace
+
+bool better_walk(const Found& one, const Found& other) {
+  const bool goes_further = one.way.far && !other.way.far && one.best.ok() && other.best.ok();
+  if (!goes_further) return better(one.best.best(), other.best.best());
+  return one.best.best()->evaluation.cost < kFarRatio * other.best.best()->evaluation.cost;
+}
 
 /// Whether footsteps may help at all.
 bool WaysToGoal::steps_freely() const {
@@ -47,7 +57,7 @@ Found WaysToGoal::walk_with(double stride_ratio, int again, const Way& way, Repo
   found.way = way;
   Posed posed = pose_within(0, way, options_->phases, beside);
   const GuessedSteps steps = guessed_steps(posed.problem, stride_ratio, [this] { return deadline_->passed(); });
-  if (steps.empty() || steps.even || steps.phases() > kPhasesMax) return found;
+  if (steps.empty() || (steps.even && way.course.route.empty()) || steps.phases() > kPhasesMax) return found;
   found.way.course.progress = steps.progress(options_->phases > 0 ? options_->phases : steps.phases());
   posed = pose_within(0, found.way, static_cast<int>(found.way.course.progress.size()) - 1, beside);
   found.steps = posed.problem.steps;
@@ -62,22 +72,23 @@ Found WaysToGoal::walk_with(double stride_ratio, int again, const Way& way, Repo
 
 /// The best of what footsteps lead to, up to the first that makes an easy walk; where none makes any, with further
 /// attempts, up to the first that does. Of robots that are tracked: the paper's plans are those of its own search. Even
-/// steps are what a search begins with, too, and past posts and through doors it has kept further away from these.
+/// steps straight on are what a search begins with, too. On a way round something the longest strides are left out:
+/// with these robots came nearer to posts and doors than their arms and legs allow.
 WaysToGoal::Walked WaysToGoal::walk_along(const Way& way, Report& report, const Beside* beside) const {
   Walked out{Found{BestPlan(*scene_, *deadline_)}};
   if (!steps_freely() || !robot_->tracked) return out;
-  const bool far = first_phases(way) > kLongWalk;
-  const double enough = far ? kGoodPhase : kEasyPhase;
+  const bool long_way = first_phases(way) > kLongWalk;
+  const double enough = long_way ? kGoodPhase : kEasyPhase;
   for (const int again : {0, kWalksAgain}) {
-    if (far && again == 0) continue;
+    if (long_way && again == 0) continue;
     for (const double ratio : kStrideRatios) {
-      if (far && ratio == kStrideRatios[0]) continue;
+      if ((long_way || !way.course.route.empty()) && ratio == kStrideRatios[0]) continue;
       Found found = walk_with(ratio, again, way, report, beside);
       if (found.steps == 0) return out;
       const Ending ending = found.ending;
       if (better(found.best.best(), out.found.best.best())) out.found = std::move(found);
       out.found.ending = ending;
-      const bool over = again > 0 && !far && out.found.best.ok();
+      const bool over = again > 0 && !long_way && out.found.best.ok();
       if (over || costs_at_most(enough, out.found.best.best()) || !ended_by_itself(ending)) break;
     }
     if (out.found.best.ok() || !ended_by_itself(out.found.ending) || way.brief) break;
@@ -85,6 +96,32 @@ WaysToGoal::Walked WaysToGoal::walk_along(const Way& way, Report& report, const 
   out.easy = costs_at_most(kGoodPhase, out.found.best.best());
   out.found.easy_walk = out.easy;
   return out;
+}
+
+bool WaysToGoal::Walked::done() const { return easy || (found.steps > 0 && !ended_by_itself(found.ending)); }
+
+/// Within the usual reach; where that makes no easy walk, beyond it.
+WaysToGoal::Walked WaysToGoal::walk_near_and_far(const Way& way, Report& report, const Beside* beside) const {
+  Walked near = walk_along(way, report, beside);
+  if (near.done() || !has_far_reach(*robot_)) return near;
+  Way further = way;
+  further.far = true;
+  Walked far = walk_along(further, report, beside);
+  if (far.found.steps == 0) return near;
+  if (near.found.steps == 0 || far.easy || better_walk(far.found, near.found)) return far;
+  near.found.ending = far.found.ending;
+  return near;
+}
+
+/// By footsteps that end on ground which is cut at what stands low across the way: on one floor feet that are not held
+/// to one side of it end up in it.
+std::optional<Found> WaysToGoal::walk_over(Way& bars, Report& report) const {
+  if (phases_given()) return std::nullopt;
+  Walked walked = walk_near_and_far(bars, report, nullptr);
+  bars.walk_known = true;
+  if (walked.found.steps == 0) return std::nullopt;
+  tell(bars, walked.found);
+  return std::move(walked.found);
 }
 
 /// Where nothing has been begun with footsteps, and there is no plan or one that strains the robot: from them as well.

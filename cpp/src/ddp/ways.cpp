@@ -100,6 +100,7 @@ Problem WaysToGoal::pose(const Way& way, int phases, std::vector<int>& surfaces,
   if (way.over_bars) cut_at(bars_across(*scene_, *robot_, options_->sole_inside), *robot_, part, surfaces);
   Problem problem(part, *robot_, with, way.course);
   problem.watch_swings = way.over_bars || way.watch;
+  if (way.far) problem.reach_far();
   return problem;
 }
 
@@ -307,18 +308,20 @@ Found WaysToGoal::search(Report& report) const {
     if (!ended_by_itself(found.ending) && !its_own) cut_short = found.ending;
     if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
   };
-  const auto [sure, otherwise, bars] = ways_of(routes, given, least);
-  std::vector<Ahead> ahead = search_ahead(sure, report);
+  auto [sure, otherwise, bars] = ways_of(routes, given, least);
+  Way over{{}, false, least};
+  over.over_bars = true;
+  if (bars) best = walk_over(over, report);
+  if (best && !ended_by_itself(best->ending)) cut_short = best->ending;
+  const bool easy = best && best->easy_walk;
+  for (Way& way : sure) way.brief = way.brief || easy;
+  std::vector<Ahead> ahead = easy ? std::vector<Ahead>(sure.size()) : search_ahead(sure, report);
   for (std::size_t i = 0; i < sure.size(); ++i) try_way(sure[i], &ahead[i]);
   for (Way way : otherwise) {
     way.brief = best && best->best.ok();
     if (!way.brief || strains(*best->best.best())) try_way(way);
   }
-  if (bars && !best->best.ok()) {
-    Way over{{}, false, least};
-    over.over_bars = true;
-    try_way(over);
-  }
+  if (bars && !best->best.ok()) try_way(over);
   if (!given && options_->allow_flight && best->best.ok() && flights(best->best.best()->plan) > 0 &&
       flight_needed(*scene_, *robot_).empty())
     try_way({{}, false, least});

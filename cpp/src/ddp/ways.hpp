@@ -22,8 +22,10 @@ struct Way {
   bool watch = false;        ///< swings are held out of solids from the first attempt on
   bool longer = false;       ///< at once in more phases than its length asks for, as the plan that there is
   bool crawl_known = false;  ///< what a crawl comes to is known
+  bool walk_known = false;   ///< and what footsteps come to
   int iterations = 0;        ///< of the report, after which it ends; 0: the limit of the options
   bool over_bars = false;    ///< the ground is cut at what stands low across the way
+  bool far = false;          ///< feet reach all of their boxes, beyond what is usual of them
 };
 
 /// What it has found.
@@ -44,6 +46,9 @@ bool ended_by_itself(Ending ending);
 
 /// Whether an accepted plan costs so much that steps as long as that strain the robot. A flight costs more by itself.
 bool strains(const BestPlan::Finished& found);
+
+/// Whether a plan is better, and where its steps alone go beyond the usual reach, whether it is worth that.
+bool better_walk(const Found& one, const Found& other);
 
 /// Call surfaces in rows of the report from this one on as the scene does.
 void name_surfaces(Report& report, std::size_t first_row, const std::vector<int>& surfaces);
@@ -88,7 +93,10 @@ class WaysToGoal {
   struct Walked {
     Found found;
     bool easy = false;
+    bool done() const;
   };
+  Walked walk_near_and_far(const Way& way, Report& report, const Beside* beside) const;
+  std::optional<Found> walk_over(Way& bars, Report& report) const;
   Walked walk_along(const Way& way, Report& report, const Beside* beside) const;
   void walk_at_last(Report& report, Found& found) const;
   Found search_phases(const Way& way, Report& report, const Beside* beside) const;

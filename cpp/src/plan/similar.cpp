@@ -22,6 +22,7 @@ void scale(Contact& contact, const Similarity& by) {
 
 void scale(EndEffector& end, const Similarity& by) {
   for (Vector3d* length : {&end.frame_offset, &end.nominal_B, &end.reach_min_B, &end.reach_max_B}) *length *= by.length;
+  end.usual_reach *= by.length;
   end.half_size *= by.length;
   end.max_force *= by.force();
   end.max_moment *= by.moment();
@@ -29,7 +30,8 @@ void scale(EndEffector& end, const Similarity& by) {
   end.com_reach.b *= by.length;
   for (auto& partner : end.partner_reach) partner.second.b *= by.length;
   for (Vector3d* length : {&end.limb.hip_B, &end.limb.ankle}) *length *= by.length;
-  for (double* length : {&end.limb.upper, &end.limb.lower, &end.limb.margin}) *length *= by.length;
+  for (double* length : {&end.limb.upper, &end.limb.lower, &end.limb.margin, &end.limb.radius, &end.limb.beside})
+    *length *= by.length;
   end.limb.knee_torque *= by.moment();
   end.limb.hip_torque *= by.moment();
   end.limb.ankle_torque *= by.moment();
@@ -61,6 +63,10 @@ Robot scaled(const Robot& robot, const Similarity& by) {
   out.max_com_speed *= by.velocity();
   if (out.swing_height != unset.swing_height) out.swing_height *= by.length;
   if (out.phase_duration != unset.phase_duration) out.phase_duration *= by.time;
+  for (TrunkPart& part : out.trunk) {
+    for (Vector3d* place : {&part.from_B, &part.to_B}) *place *= by.length;
+    part.radius *= by.length;
+  }
   for (EndEffector& end : out.end_effectors) scale(end, by);
   return out;
 }

@@ -138,8 +138,9 @@ ActiveSwing active_swing(const Plan& plan, const Swing& swing, int phase) {
   const EndEffector& limits = plan.robot.end_effectors[swing.end_effector];
   ActiveSwing out;
   out.swing = &swing;
-  out.reach_min_B = limits.reach_min_B;
-  out.reach_max_B = limits.reach_max_B;
+  const Eigen::AlignedBox3d usual = limits.usual_box();
+  out.reach_min_B = usual.min();
+  out.reach_max_B = usual.max();
   for (int k = swing.first_phase; k < swing.end_phase; ++k) {
     if (k == phase) out.before_s = out.total_s;
     out.total_s += plan.phases[k].duration;

@@ -12,7 +12,7 @@ namespace mcplan {
 struct ActiveSwing {
   const Swing* swing = nullptr;
   double before_s = 0.0, total_s = 0.0;      ///< from its first knot to the phase's start, to touch-down
-  Eigen::Vector3d reach_min_B, reach_max_B;  ///< what the path is held in: the reach box and both ends of the swing
+  Eigen::Vector3d reach_min_B, reach_max_B;  ///< what the path is held in: the usual reach, both ends of the swing
   /// Band [m] inside of the lower and upper sides in which the path bends, at lift-off, at touch-down and half way.
   Eigen::Vector3d lift_bands_B[2], land_bands_B[2], middle_band_B;
   /// A face n' x <= max that cuts the box, and its bands.

@@ -64,7 +64,8 @@ Polytope without_implied_rows(const Polytope& polytope, const Vector3d& low, con
 
 Polytope com_reach_of(const EndEffector& foot) {
   if (foot.com_reach.given()) return foot.com_reach;
-  const Polytope box = box_polytope(-foot.reach_max_B, -foot.reach_min_B);
+  const Eigen::AlignedBox3d usual = foot.usual_box();
+  const Polytope box = box_polytope(-usual.max(), -usual.min());
   if (!foot.reach_cut.given()) return box;
   // Of the CoM relative to the foot, where the cut is of the foot relative to the CoM.
   Polytope out;
@@ -78,7 +79,8 @@ Polytope com_reach_of(const EndEffector& foot) {
 Polytope partner_reach_of(const EndEffector& foot, const EndEffector& other) {
   const auto given = foot.partner_reach.find(other.name);
   if (given != foot.partner_reach.end() && given->second.given()) return given->second;
-  return box_polytope(other.reach_min_B - foot.reach_max_B, other.reach_max_B - foot.reach_min_B);
+  const Eigen::AlignedBox3d own = foot.usual_box(), its = other.usual_box();
+  return box_polytope(its.min() - own.max(), its.max() - own.min());
 }
 
 Polytope rotated(const Polytope& polytope, const Matrix3d& R) { return {polytope.A * R.transpose(), polytope.b}; }

@@ -37,6 +37,13 @@ void require_yaw_range(const EndEffector& e, const std::string& field) {
                        text(e.yaw_range));
 }
 
+void require_usual_reach(const EndEffector& e, const std::string& field) {
+  const double x = e.nominal_B.x();
+  if (!(e.usual_reach[0] < x && x < e.usual_reach[1]))
+    throw InvalidRobot(field + ".usual_reach", "must be two numbers about the nominal x, " + text(x),
+                       text(e.usual_reach));
+}
+
 /// `nominal`: the point of the nominal stance that the set must hold.
 void validate_polytope(const Polytope& set, const Vector3d& nominal, const std::string& field) {
   constexpr double unit_tolerance = 1e-3, inside_tolerance_m = 1e-6;
@@ -118,6 +125,13 @@ void require_trunk(const Robot& robot, const TrunkPart& part, const std::string&
 
 }  // namespace
 
+Eigen::AlignedBox3d EndEffector::usual_box() const {
+  Eigen::AlignedBox3d out(reach_min_B, reach_max_B);
+  out.min().x() = std::max(out.min().x(), usual_reach[0]);
+  out.max().x() = std::min(out.max().x(), usual_reach[1]);
+  return out;
+}
+
 int Robot::end_effector_index(const std::string& end_effector_name) const {
   for (std::size_t l = 0; l < end_effectors.size(); ++l)
     if (end_effectors[l].name == end_effector_name) return static_cast<int>(l);
@@ -143,6 +157,7 @@ void model::relations(const Robot& robot, Findings& found) {
     const EndEffector& e = robot.end_effectors[l];
     const std::string field = field_of(l);
     found.check({field + ".nominal", field + ".reach_min", field + ".reach_max"}, [&] { require_box(e, field); });
+    found.check({field + ".usual_reach", field + ".nominal"}, [&] { require_usual_reach(e, field); });
     found.check({field + ".yaw_range"}, [&] { require_yaw_range(e, field); });
     if (e.limb.given())
       found.check({field + ".limb", field + ".half_size", field + ".nominal"},

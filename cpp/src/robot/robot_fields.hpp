@@ -117,6 +117,10 @@ struct Fields<EndEffector> {
       field("reach_max_B", &EndEffector::reach_max_B, "m", "Upper corner of the box of reachable positions.")
           .in_files("reach_max")
           .required(),
+      field("usual_reach", &EndEffector::usual_reach, "m",
+            "What of the box's length plans keep to where steps within it make an easy walk, back and ahead; left out: "
+            "all "
+            "of it."),
       field("reach_cut", &EndEffector::reach_cut, "m",
             "Faces that cut the box, four at most: a sole is lifted higher ahead than behind. Not beside com_reach."),
       field("max_force", &EndEffector::max_force, "N", "Largest norm of the contact force.").positive().or_infinite(),

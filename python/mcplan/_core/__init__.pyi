@@ -707,6 +707,7 @@ class EndEffector:
         nominal_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         reach_min_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         reach_max_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        usual_reach: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
         reach_cut: Polytope = ...,
         max_force: typing.SupportsFloat | typing.SupportsIndex = ...,
         max_moment: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
@@ -717,6 +718,15 @@ class EndEffector:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
+    def usual_box(
+        self,
+    ) -> tuple[
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
+    ]:
+        """
+        The reach box within usual_reach: its lower and upper corner [m].
+        """
     @property
     def com_reach(self) -> Polytope:
         """
@@ -815,6 +825,13 @@ class EndEffector:
         """
     @reach_min_B.setter
     def reach_min_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def usual_reach(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m] What of the box's length plans keep to where steps within it make an easy walk, back and ahead; left out: all of it.
+        """
+    @usual_reach.setter
+    def usual_reach(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
     @property
     def yaw_range(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """

@@ -76,7 +76,7 @@ class Gait:
 def gait_of(robot: Robot) -> Gait:
     """The gait of a robot with a left and a right foot."""
     feet = [end for end in robot.end_effectors if end.kind == "foot"]
-    sizes = np.array([np.asarray(foot.reach_max_B) - np.asarray(foot.reach_min_B) for foot in feet])
+    sizes = np.array([foot.usual_box()[1] - foot.usual_box()[0] for foot in feet])
     # Below the CoM: what faces let soles be lifted more ahead is not for every step.
     sizes[:, 2] = [top_at(foot, *foot.nominal_B[:2]) - foot.reach_min_B[2] for foot in feet]
     half = (float(feet[0].half_size[0]), float(feet[0].half_size[1]))

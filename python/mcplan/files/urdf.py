@@ -20,6 +20,7 @@ from mcplan._core import EndEffector, Polytope, Robot
 from mcplan.errors import InvalidInput, did_you_mean, shown, written
 from mcplan.extras import require
 from mcplan.files.builtin import exists
+from mcplan.files.far_reach import add_far_reach
 from mcplan.files.leg_geometry import legs_of
 from mcplan.files.leg_shape import add_leg_shapes
 from mcplan.files.limb_limits import add_limb_limits
@@ -116,7 +117,6 @@ def robot_from_urdf(
     shared = {end.name: _same_box(boxes, end, com_height) for end in ends}
     shared = _lifted(limbs, shared, ends, step, seed)
     able = {end.name: _with_strength(limbs[end.name], shared[end.name], end.kind == "foot", seed) for end in ends}
-    weight = mass * GRAVITY
     robot = Robot(
         name=Path(source).stem,
         description=setup.description if setup else "",
@@ -125,7 +125,7 @@ def robot_from_urdf(
         com_height=round(com_height, 3),
         max_com_speed=round(FAST_RUN * float(np.sqrt(GRAVITY * com_height)), 1),
         swing_height=setup.swing_height if setup else SWING_HEIGHT_M,
-        end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
+        end_effectors=[_end_effector(end, _same_strength(able, end), mass * GRAVITY) for end in ends],
         trunk=trunk_of(model, nominal, ends, {end.name: own_joints(model, end, ends) for end in ends}, source),
         urdf=urdf,
         posture=_posture_of(model, nominal),
@@ -134,6 +134,7 @@ def robot_from_urdf(
     if (legs := legs_of(model, nominal, ends, limbs)) is not None:
         add_limb_limits(robot, legs, ends, seed)
         add_leg_shapes(robot, legs, source)
+        add_far_reach(robot, legs, step, seed)
     return robot
 
 

@@ -266,7 +266,8 @@ def reaching(robot: Robot, start: rhp.State, yaw: float) -> Robot:
         if end.com_reach.given:
             end.com_reach = _holding(end.com_reach, -from_com)
         else:
-            low, high = np.asarray(end.reach_min_B, float), np.asarray(end.reach_max_B, float)
+            low, high = end.usual_box()
+            end.usual_reach = [-np.inf, np.inf]
             end.reach_min_B = np.where(from_com < low, from_com - REACH_SLACK_M, low)
             end.reach_max_B = np.where(from_com > high, from_com + REACH_SLACK_M, high)
             if end.reach_cut.given:

@@ -61,6 +61,7 @@ def widened(robot: Robot) -> Robot:
         else:
             low[1], high[1] = min(low[1], -OUTWARD * height), max(high[1], 0.0)
         end.reach_min_B, end.reach_max_B = low, high
+        end.usual_reach = [-np.inf, np.inf]
         other = ends[feet[1] if i == feet[0] else feet[0]].name
         end.partner_reach = {other: Polytope(A=[[0.0, side[i], 0.0]], b=[-apart_m])}
     wide = robot.__copy__()

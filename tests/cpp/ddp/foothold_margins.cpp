@@ -2,6 +2,7 @@
 
 #include "ddp/problem.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
+#include "mcplan/mcplan.hpp"
 #include "support.hpp"
 
 namespace {
@@ -76,4 +77,24 @@ TEST_CASE("feet that start or end at an edge cost no more than on ground that go
     CHECK(cost(ground(1.0, -0.03)) < 1.5 * wide);
     CHECK(cost(ground(0.03)) < 1.5 * wide);
   }
+}
+
+TEST_CASE("margins are those of the soles as they head where the course passes the surface") {
+  mcplan::Scene scene =
+      scenes::made_of("aside",
+                      {scenes::rectangle("near", -1, 1, -1, 0.3, 0), scenes::rectangle("tread", -1, 1, 0.3, 0.9, 0),
+                       scenes::rectangle("far", -1, 1, 0.9, 3.0, 0)},
+                      "near", "far", {0.0, 2.0, 0.0});
+  const mcplan::Robot robot = mcplan::load_robot("talos");
+  const Eigen::Vector2d half = robot.end_effectors[0].half_size;
+  const auto margin_across = [&](bool faces_way) {
+    const ddp::Problem problem(scene, robot, whole_soles(0), {{}, faces_way});
+    const mcplan::Polygon& polygon = problem.polygons[1];
+    for (int i = 0; i < polygon.edge_count(); ++i)
+      if (polygon.edge_outward_W(i).y() > 0.99) return problem.foothold_margin(0, 1, i) * problem.units.length;
+    return -1.0;
+  };
+  CHECK(margin_across(false) >= half.y());
+  CHECK(margin_across(false) < half.x());
+  CHECK(margin_across(true) >= half.x() - 1e-12);
 }

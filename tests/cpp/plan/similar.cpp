@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "mcplan/mcplan.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "plan/fixtures.hpp"
 
@@ -43,6 +44,23 @@ TEST_CASE("there and back again is where one started, to the last bit") {
       }
     }
   }
+}
+
+TEST_CASE("all that a robot's fields say of lengths is scaled, of legs and trunk as well") {
+  const mcplan::Robot robot = mcplan::load_robot("talos"), other = scaled(robot, kLarger);
+  const double length = kLarger.length;
+  REQUIRE(!robot.trunk.empty());
+  for (std::size_t i = 0; i < robot.trunk.size(); ++i) {
+    CHECK(other.trunk[i].radius == length * robot.trunk[i].radius);
+    CHECK(other.trunk[i].from_B == length * robot.trunk[i].from_B);
+    CHECK(other.trunk[i].to_B == length * robot.trunk[i].to_B);
+  }
+  const mcplan::EndEffector &foot = robot.end_effectors[0], &larger = other.end_effectors[0];
+  CHECK(larger.usual_reach == length * foot.usual_reach);
+  REQUIRE(foot.limb.radius > 0.0);
+  for (double mcplan::LimbLimits::*member : {&mcplan::LimbLimits::upper, &mcplan::LimbLimits::lower,
+                                             &mcplan::LimbLimits::radius, &mcplan::LimbLimits::beside})
+    CHECK(larger.limb.*member == length * foot.limb.*member);
 }
 
 TEST_CASE("a similar motion has similar states and forces between its knots") {

@@ -148,6 +148,26 @@ TEST_CASE("a sole may be turned both ways, or any way") {
   for (double left : {nan, inf}) CHECK(turned(-0.3, left) == whole + "[1]");
 }
 
+TEST_CASE("the usual reach holds the nominal place, and cuts the box where it is narrower") {
+  const auto usual = [](double back, double ahead) {
+    return field([&](Robot& r) { r.end_effectors[1].usual_reach = {back, ahead}; });
+  };
+  Robot robot = hopper();
+  mcplan::EndEffector& end = robot.end_effectors[1];
+  const double x = end.nominal_B.x(), inf = INFINITY;
+  CHECK(usual(-inf, inf) == "accepted");
+  CHECK(usual(x - 0.1, x + 0.1) == "accepted");
+  CHECK(usual(x - 100.0, x + 0.1) == "accepted");  // no more than the box
+  const std::string whole = "end_effectors[1].usual_reach";
+  for (const auto& [back, ahead] : {std::pair(x, x + 0.1), std::pair(x - 0.1, x), std::pair(x + 0.1, x - 0.1)})
+    CHECK(usual(back, ahead) == whole);
+  CHECK(usual(std::nan(""), x + 0.1) == whole + "[0]");
+
+  end.usual_reach = {x - 0.01, x + 100.0};
+  CHECK(end.usual_box().min() == Vector3d(x - 0.01, end.reach_min_B.y(), end.reach_min_B.z()));
+  CHECK(end.usual_box().max() == end.reach_max_B);
+}
+
 TEST_CASE("a robot has one to eight end-effectors") {
   CHECK(field([](Robot& r) { r.end_effectors.clear(); }) == "end_effectors");
   CHECK(field([](Robot& r) { r.end_effectors.assign(9, r.end_effectors[0]); }) == "end_effectors");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <limits>
 #include <map>
 #include <string>
@@ -57,6 +58,9 @@ struct EndEffector {
   Eigen::Vector3d nominal_B = Eigen::Vector3d::Zero();    ///< [m] nominal position relative to the CoM
   Eigen::Vector3d reach_min_B = Eigen::Vector3d::Zero();  ///< [m] box of reachable positions relative to the CoM
   Eigen::Vector3d reach_max_B = Eigen::Vector3d::Zero();
+  /// [m] what of the box's length, along x, plans keep to where steps within it make an easy walk; what is beyond takes
+  /// legs that are stretched or bent far. Infinite: all of it.
+  Eigen::Vector2d usual_reach{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   /// Faces, kReachCuts at most, that cut the box where it says more than the limb can do: a sole is lifted higher ahead
   /// of the body than behind it. Same axes; not beside com_reach.
   Polytope reach_cut;
@@ -71,6 +75,9 @@ struct EndEffector {
       com_reach;  ///< where the CoM may be relative to this end-effector (its sole's centre) while it is in contact
   std::map<std::string, Polytope> partner_reach;  ///< where other end-effectors may stand relative to it, by name
   LimbLimits limb;                                ///< of the leg that carries it, where given
+
+  /// What of the reach box is usual: corners [m].
+  Eigen::AlignedBox3d usual_box() const;
 };
 
 /// A capsule that turns with the base, about as large as what it stands for: all points within `radius` of a line.

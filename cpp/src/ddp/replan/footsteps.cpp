@@ -36,7 +36,8 @@ struct Region {
 
 Region region_of(const EndEffector& end, const EndEffector& other, double height_m, double ratio) {
   Region out;
-  const Vector3d low = end.reach_min_B - other.reach_max_B, high = end.reach_max_B - other.reach_min_B;
+  const Eigen::AlignedBox3d own = end.usual_box(), its = other.usual_box();
+  const Vector3d low = own.min() - its.max(), high = own.max() - its.min();
   const double aside = end.nominal_B.y() - other.nominal_B.y();
   out.side = aside < 0.0 ? -1.0 : 1.0;
   out.usual_m = std::abs(aside);

@@ -231,7 +231,8 @@ class Steps {
     Vector2d at = turned(pendulum_.capture() - stands_W.head<2>(), -yaw_);
     at.y() = side * std::max(side * at.y(), apart_m);
     const Vector2d relative = turned(stands_W.head<2>() - pendulum_.com, -yaw_) + at;
-    const Vector2d within = relative.cwiseMax(end.reach_min_B.head<2>()).cwiseMin(end.reach_max_B.head<2>());
+    const Eigen::AlignedBox3d usual = end.usual_box();
+    const Vector2d within = relative.cwiseMax(usual.min().head<2>()).cwiseMin(usual.max().head<2>());
     const Vector2d way = pendulum_.com + turned(within, yaw_) - from_W.head<2>();
     const Vector2d xy = from_W.head<2>() + way * std::min(1.0, way_m / std::max(way.norm(), 1e-9));
     return ground_at(*now_->scene, end, Vector3d(xy.x(), xy.y(), stands_W.z()));

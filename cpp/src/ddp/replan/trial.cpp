@@ -7,6 +7,7 @@
 
 #include "ddp/best_plan.hpp"
 #include "ddp/constants.hpp"
+#include "ddp/far_reach.hpp"
 #include "ddp/near_miss.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
@@ -50,6 +51,7 @@ Problem pose(const Now& now, const Rest& rest, Tuning& tuning, const Again* agai
   }
   problem.set_start(now.measured.state, contacts);
   problem.free_end = rest.free_end;
+  if (reaches_far(rest.plan)) problem.reach_far();
   problem.start_slack = kSlackRatio * now.options->start_slack_s * now.similarity.time / problem.units.time;
   problem.first_duration = rest.plan.phases.front().duration / problem.units.time;
   return problem;

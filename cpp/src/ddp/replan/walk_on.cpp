@@ -296,7 +296,7 @@ double ratio_of_strides(const Robot& robot, const VelocityCommand& command, cons
     if (end.kind != "foot") continue;
     const Vector2d turning = command.yaw_rate * Vector2d(-end.nominal_B.y(), end.nominal_B.x());
     const Vector2d stride = between_s * (command.velocity_B + turning);
-    const Vector2d stride_max = part * (end.reach_max_B - end.reach_min_B).head<2>();
+    const Vector2d stride_max = part * end.usual_box().sizes().head<2>();
     const double length = stride.cwiseQuotient(stride_max).norm();
     if (length > 1.0) ratio = std::min(ratio, 1.0 / length);
   }
