@@ -29,6 +29,9 @@ bool costs_at_most(double a_phase, const std::optional<BestPlan::Finished>& foun
   return found && found->ok && found->evaluation.cost <= a_phase * static_cast<double>(found->plan.phases.size());
 }
 
+/// Round something, turned to where it goes.
+bool turns_round(const Way& way) { return way.course.faces_way && !way.course.route.empty(); }
+
 }  // namespace
 
 bool better_walk(const Found& one, const Found& other) {
@@ -57,7 +60,7 @@ Found WaysToGoal::walk_with(double stride_ratio, int again, const Way& way, Repo
   found.way = way;
   Posed posed = pose_within(0, way, options_->phases, beside);
   const GuessedSteps steps = guessed_steps(posed.problem, stride_ratio, [this] { return deadline_->passed(); });
-  if (steps.empty() || (steps.even && way.course.route.empty()) || steps.phases() > kPhasesMax) return found;
+  if (steps.empty() || (steps.even && !turns_round(way)) || steps.phases() > kPhasesMax) return found;
   found.way.course.progress = steps.progress(options_->phases > 0 ? options_->phases : steps.phases());
   posed = pose_within(0, found.way, static_cast<int>(found.way.course.progress.size()) - 1, beside);
   found.steps = posed.problem.steps;
@@ -72,8 +75,8 @@ Found WaysToGoal::walk_with(double stride_ratio, int again, const Way& way, Repo
 
 /// The best of what footsteps lead to, up to the first that makes an easy walk; where none makes any, with further
 /// attempts, up to the first that does. Of robots that are tracked: the paper's plans are those of its own search. Even
-/// steps straight on are what a search begins with, too. On a way round something the longest strides are left out:
-/// with these robots came nearer to posts and doors than their arms and legs allow.
+/// steps are what a search begins with, too, and past posts and through doors it has kept further away from these; but
+/// where a robot turns to its way round something it found none.
 WaysToGoal::Walked WaysToGoal::walk_along(const Way& way, Report& report, const Beside* beside) const {
   Walked out{Found{BestPlan(*scene_, *deadline_)}};
   if (!steps_freely() || !robot_->tracked) return out;
@@ -82,7 +85,7 @@ WaysToGoal::Walked WaysToGoal::walk_along(const Way& way, Report& report, const 
   for (const int again : {0, kWalksAgain}) {
     if (long_way && again == 0) continue;
     for (const double ratio : kStrideRatios) {
-      if ((long_way || !way.course.route.empty()) && ratio == kStrideRatios[0]) continue;
+      if ((long_way || turns_round(way)) && ratio == kStrideRatios[0]) continue;
       Found found = walk_with(ratio, again, way, report, beside);
       if (found.steps == 0) return out;
       const Ending ending = found.ending;
