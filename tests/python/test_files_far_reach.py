@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.files.far_reach import FARTHEST, leg_reaches
-from mcplan.files.leg_geometry import max_length
+from mcplan.files.far_reach import FARTHEST, add_far_reach, leg_reaches
+from mcplan.files.leg_geometry import legs_of, max_length
 from mcplan.files.reach import share_reached
 from mcplan.files.reach_cut import below_cut
 from mcplan.files.urdf import load_model
-from mcplan.files.urdf_limbs import limb_of
+from mcplan.files.urdf_limbs import contact_frame, limb_of
 from mcplan.files.urdf_setups import SETUPS
 
 pytest.importorskip("pinocchio")
@@ -56,7 +56,19 @@ def test_a_leg_is_long_enough_up_to_its_length():
     assert not leg_reaches(robot, foot, np.asarray(foot.nominal_B) - [0.0, 0.0, 1.01 * lower])
 
 
-def test_a_reach_that_limits_do_not_hold_in_is_left_out():
-    """The hips of the G1 lie where a straight line does not say, once a foot is far behind."""
-    for end in mp.load_robot("g1").end_effectors:
-        assert not np.isfinite(end.usual_reach).any()
+@pytest.mark.parametrize("name", ["talos", "g1"])
+def test_shipped_robots_reach_as_far_as_their_urdf_says(name):
+    """The G1 no further than usual: its hips lie where a straight line does not say, once a foot is far behind."""
+    shipped, robot, ends = mp.load_robot(name), mp.load_robot(name), SETUPS[name].ends
+    listed = list(robot.end_effectors)
+    for end in listed:
+        low, high = end.usual_box()
+        end.reach_min_B, end.reach_max_B, end.usual_reach = low, high, [-np.inf, np.inf]
+    robot.end_effectors = listed
+    model, nominal, _ = load_model(name, ends)
+    for end in ends:
+        contact_frame(model, end)
+    legs = legs_of(model, nominal, ends, {end.name: limb_of(model, nominal, end, ends, name) for end in ends})
+    add_far_reach(robot, legs, 0.02)
+    assert robot == shipped
+    assert np.isfinite(shipped.end_effectors[0].usual_reach).all() == (name == "talos")

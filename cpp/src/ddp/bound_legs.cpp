@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <vector>
 
 #include "ddp/costs/prism.hpp"
 #include "ddp/impossible.hpp"
@@ -35,15 +36,32 @@ LegLines lines_of(const Robot& robot, const ResolvedStance& at, std::size_t l, c
   return {end.limb, ankle, hip - ankle, heading};
 }
 
-/// How deep a capsule about a line is in a solid [m]; negative: not at all.
-double depth_in(const Surface& surface, const Vector3d& from, const Vector3d& along, double radius) {
-  const Polygon polygon(surface.vertices_W);
-  Eigen::AlignedBox3d around(from);
-  around.extend(Vector3d(from + along));
-  const Eigen::AlignedBox3d box = box_of({polygon, surface.thickness});
+/// A line of a leg that stands, and what it stands on where that is beside it: a shank's.
+struct Part {
+  std::size_t l = 0;
+  Vector3d from, along;
+  int beside = -1;
+};
+
+std::vector<Part> parts_of(const Robot& robot, const Scene& scene, const ResolvedStance& at) {
+  std::vector<Part> out;
+  for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
+    const LimbLimits& limb = robot.end_effectors[l].limb;
+    if (at.contacts[l] < 0 || !limb.given() || !(limb.radius > 0.0)) continue;
+    const LegLines lines = lines_of(robot, at, l, scene.surfaces[at.contacts[l]]);
+    out.push_back({l, lines.from(LegLines::thigh), lines.along(LegLines::thigh)});
+    out.push_back({l, lines.from(LegLines::shank), lines.along(LegLines::shank), at.contacts[l]});
+  }
+  return out;
+}
+
+/// How deep a capsule about a line is in a solid [m]; less than zero: not at all.
+double depth_in(const Solid& solid, const Eigen::AlignedBox3d& box, const Part& part, double radius) {
+  Eigen::AlignedBox3d around(part.from);
+  around.extend(Vector3d(part.from + part.along));
   if (box.squaredExteriorDistance(around) >= radius * radius) return -radius;  // most, where there are many
-  const double s = nearest_on_line(polygon, surface.thickness, from, along);
-  return radius - std::max(outside_solid(polygon, surface.thickness, from + s * along).distance, 0.0);
+  const double s = nearest_on_line(solid.polygon, solid.thickness, part.from, part.along);
+  return radius - std::max(outside_solid(solid.polygon, solid.thickness, part.from + s * part.along).distance, 0.0);
 }
 
 }  // namespace
@@ -52,22 +70,22 @@ std::optional<Impossible> leg_in_solid(const Scene& scene, const Robot& robot, b
   const std::string name = at_goal ? "goal" : "start";
   const ResolvedStance at = resolve_stance(scene, robot, at_goal ? scene.goal : scene.start, name);
   const double allowed_m = tolerances * Tolerances().clearance * similarity_of(robot, scene.gravity).length;
+  const std::vector<Part> parts = parts_of(robot, scene, at);
   std::optional<Impossible> deepest;
-  for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
-    const EndEffector& end = robot.end_effectors[l];
-    if (at.contacts[l] < 0 || !end.limb.given() || !(end.limb.radius > 0.0)) continue;
-    const LegLines lines = lines_of(robot, at, l, scene.surfaces[at.contacts[l]]);
-    for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
-      for (const LegLines::Part part : {LegLines::thigh, LegLines::shank}) {
-        // What a foot stands on is beside its shank.
-        if (part == LegLines::shank && static_cast<int>(i) == at.contacts[l]) continue;
-        const double depth_m = depth_in(scene.surfaces[i], lines.from(part), lines.along(part), end.limb.radius);
-        if (!(depth_m > allowed_m) || (deepest && !(depth_m > deepest->violation.value))) continue;
-        deepest = Impossible{name + ": the leg of " + end.name + " would be " + model::digits(depth_m, "%.2g") +
-                                 " m deep in the solid of " + model::shown(scene.surfaces[i].name) +
-                                 (at_goal ? ", with the feet where they usually stand" : ""),
-                             {"limb", -1, end.name, 0.0, depth_m, allowed_m, "m", scene.surfaces[i].name}};
-      }
+  for (int i = 0; i < static_cast<int>(scene.surfaces.size()) && !parts.empty(); ++i) {
+    const Surface& surface = scene.surfaces[i];
+    const Solid solid{Polygon(surface.vertices_W), surface.thickness};
+    const Eigen::AlignedBox3d box = box_of(solid);
+    for (const Part& part : parts) {
+      if (part.beside == i) continue;
+      const EndEffector& end = robot.end_effectors[part.l];
+      const double depth_m = depth_in(solid, box, part, end.limb.radius);
+      if (!(depth_m > allowed_m) || (deepest && !(depth_m > deepest->violation.value))) continue;
+      deepest = Impossible{name + ": the leg of " + end.name + " would be " + model::digits(depth_m, "%.2g") +
+                               " m deep in the solid of " + model::shown(surface.name) +
+                               (at_goal ? ", with the feet where they usually stand" : ""),
+                           {"limb", -1, end.name, 0.0, depth_m, allowed_m, "m", surface.name}};
+    }
   }
   return deepest;
 }

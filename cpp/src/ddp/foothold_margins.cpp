@@ -77,18 +77,20 @@ void Problem::make_slack() {
 /// it has where it passes the surface, otherwise those from start to goal. `from`, `to`: the CoM there [m].
 std::vector<std::vector<double>> Problem::headings_on_surfaces(const Vector3d& from, const Vector3d& to) const {
   const double start_heading = start_yaw.empty() ? goal_yaw : start_yaw.front();
-  if (!course.faces_way && course.route.empty()) {
+  if (!course.turns()) {
     std::vector<double> all;
     for (double way : {0.0, 0.25, 0.5, 0.75, 1.0}) all.push_back(start_heading + way * (goal_yaw - start_heading));
     return std::vector<std::vector<double>>(polygons.size(), all);
   }
   const Headings headings(course, start_heading, goal_yaw, (to - from).head<2>());
   std::vector<Eigen::Vector2d> places;
+  std::vector<double> yaws;
   double length = 0.0;
   for (int i = 0; i <= kHeadings; ++i) {
     const double share = static_cast<double>(i) / kHeadings;
     const Vector3d at = course.route.empty() ? Vector3d(from + share * (to - from)) : point_on(course.route, share);
     places.emplace_back(at.head<2>() / units.length);
+    yaws.push_back(headings.at(share));
     if (i > 0) length += (places[i] - places[i - 1]).norm();
   }
   const double near = kPasses + 0.5 * length / kHeadings;
@@ -99,9 +101,9 @@ std::vector<std::vector<double>> Problem::headings_on_surfaces(const Vector3d& f
     std::vector<double>& own = out.emplace_back();
     double least = std::numeric_limits<double>::infinity(), nearest = 0.0;
     for (int i = 0; i <= kHeadings; ++i) {
-      const double yaw = headings.at(static_cast<double>(i) / kHeadings), away = box.exteriorDistance(places[i]);
-      if (away <= near) own.push_back(yaw);
-      if (away < least) nearest = yaw;
+      const double away = box.exteriorDistance(places[i]);
+      if (away <= near) own.push_back(yaws[i]);
+      if (away < least) nearest = yaws[i];
       least = std::min(least, away);
     }
     if (own.empty()) own.push_back(nearest);
@@ -113,7 +115,7 @@ void Problem::make_foothold_margins(const Vector3d& from, const Vector3d& to) {
   const std::vector<std::vector<double>> headings = headings_on_surfaces(from, to);
   // On a course that turns a surface is left the least that a sole needs there: a corridor of 0.25 m holds both feet of
   // TALOS straight ahead and not aslant. Of soles that turn on it a corner may be over its edge.
-  const bool turns = course.faces_way || !course.route.empty();
+  const bool turns = course.turns();
   const double ratio = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
   for (const Polygon& polygon : polygons) {
     std::vector<double>& of_surface = widths_.emplace_back();

@@ -12,6 +12,9 @@ struct Course {
   Route route;
   bool faces_way = false;             ///< the base turns to where it goes, and at the end to where the goal has it look
   std::vector<double> progress = {};  ///< share of the way at each knot; a cubic where the problem has other phases
+
+  /// Whether the base looks elsewhere on the way than from the start to the goal.
+  bool turns() const { return faces_way || !route.empty(); }
 };
 
 /// The share of the way at knot k of so many steps that last `total`, and its rate: what the course says, or a cubic

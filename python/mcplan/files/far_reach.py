@@ -9,7 +9,7 @@ fitted to the box.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,21 +41,23 @@ def add_far_reach(robot: Robot, urdf: LegModel, step: float, seed: int = 0) -> N
         seed: Of the random postures.
     """
     feet = [end for end in robot.end_effectors if end.limb.given and urdf.limbs[end.name].flat]
-    if not feet:
+    usual = {end.name: (float(end.reach_min_B[0]), float(end.reach_max_B[0])) for end in feet}
+    if not usual:
         return
     farthest = FARTHEST * float(robot.com_height)
     back, ahead = (
         min(_further(robot, end, urdf.limbs[end.name], step, side, farthest) for end in feet) for side in (-1.0, 1.0)
     )
-    usual = [float(feet[0].reach_min_B[0]), float(feet[0].reach_max_B[0])]
-    while back + ahead >= LEAST_GAIN * (usual[1] - usual[0]):
-        _set_range(robot, feet, (usual[0] - back, usual[1] + ahead), usual)
+    shortest = min(high - low for low, high in usual.values())
+    while back + ahead >= LEAST_GAIN * shortest:
+        _widen(robot, usual, back, ahead)
         beyond = _places_beyond_limits(robot, urdf, seed)
-        behind, before = usual[0] - beyond[beyond < usual[0]], beyond[beyond > usual[1]] - usual[1]
+        behind = np.array([usual[name][0] - x for name, x in beyond if name in usual and x < usual[name][0]])
+        before = np.array([x - usual[name][1] for name, x in beyond if name in usual and x > usual[name][1]])
         if not len(behind) and not len(before):
             return
         back, ahead = _shorter(back, behind, step), _shorter(ahead, before, step)
-    _set_range(robot, feet, (usual[0], usual[1]), [-np.inf, np.inf])
+    _widen(robot, usual, 0.0, 0.0)
 
 
 def _shorter(most: float, beyond: Array, step: float) -> float:
@@ -65,27 +67,28 @@ def _shorter(most: float, beyond: Array, step: float) -> float:
     return max(min(most - step, float(np.floor(beyond.min() / step)) * step), 0.0)
 
 
-def _set_range(robot: Robot, feet: list[EndEffector], x: tuple[float, float], usual: list[float]) -> None:
-    """The range of x of the reach of feet, and what of it is usual [m]."""
-    names, ends = {foot.name for foot in feet}, list(robot.end_effectors)
+def _widen(robot: Robot, usual: Mapping[str, tuple[float, float]], back: float, ahead: float) -> None:
+    """Let feet reach so much further than their usual range of x [m]."""
+    ends = list(robot.end_effectors)
     for end in ends:
-        if end.name in names:
+        if end.name in usual:
             low, high = np.array(end.reach_min_B), np.array(end.reach_max_B)
-            low[0], high[0] = round(x[0], 3), round(x[1], 3)
-            end.reach_min_B, end.reach_max_B, end.usual_reach = low, high, usual
+            low[0], high[0] = round(usual[end.name][0] - back, 3), round(usual[end.name][1] + ahead, 3)
+            end.reach_min_B, end.reach_max_B = low, high
+            end.usual_reach = usual[end.name] if back + ahead > 0.0 else [-np.inf, np.inf]
     robot.end_effectors = ends
 
 
-def _places_beyond_limits(robot: Robot, urdf: LegModel, seed: int) -> Array:
-    """Places x [m] of feet in random postures that the limits of a leg ask for more of a joint than it has."""
+def _places_beyond_limits(robot: Robot, urdf: LegModel, seed: int) -> list[tuple[str, float]]:
+    """Feet and their places x [m] in random postures in which a leg's limits ask for more of a joint than it has."""
     data, rng, found = urdf.model.createData(), np.random.default_rng(seed), []
     for posture in postures(urdf, robot, POSTURES, seed):
         for number, name in enumerate(urdf.legs):
             drawn = draw(urdf, data, robot, name, posture, rng)
             limited = np.isfinite(limits_of(robot.end_effectors[robot.end_effector_index(name)].limb))
             if drawn is not None and max(drawn.speed, np.max(drawn.torques[limited], initial=0.0)) > MOST_USE:
-                found.append(float(posture.feet[number][0] - posture.com[0]))
-    return np.array(found)
+                found.append((name, float(posture.feet[number][0] - posture.com[0])))
+    return found
 
 
 def leg_reaches(robot: Robot, end: EndEffector, place: Array) -> bool:
@@ -101,11 +104,10 @@ def _further(robot: Robot, end: EndEffector, limb: Limb, step: float, side: floa
     low, high = np.asarray(end.reach_min_B), np.asarray(end.reach_max_B)
     edge = float(high[0] if side > 0.0 else low[0])
     postures: dict[tuple[int, int], Array] = {}
-    for count in itertools.count(1):
-        x = edge + side * count * step
-        if abs(x) > farthest or not _reached(robot, end, limb, x, _grid(low, high, step), postures):
-            return (count - 1) * step
-    raise AssertionError
+    grid, count = _grid(low, high, step), 0
+    while abs(x := edge + side * (count + 1) * step) <= farthest and _reached(robot, end, limb, x, grid, postures):
+        count += 1
+    return count * step
 
 
 def _grid(low: Array, high: Array, step: float) -> list[tuple[tuple[int, int], float, float]]:
