@@ -61,6 +61,23 @@ def test_uneven_ground_is_walked_over_at_a_fraction_of_what_a_search_comes_to() 
     assert searched.report.status != mp.Status.solved or walked.report.cost < 0.8 * searched.report.cost
 
 
+@pytest.mark.parametrize("robot", ["talos", "g1"])
+def test_a_long_walk_with_a_turn_on_an_open_floor_takes_a_few_hundred_iterations(robot: str) -> None:
+    """Searches along both courses, on which the base turns to the way and on which it does not, took thousands."""
+    ground = strip("floor", -3.0, 7.0, 0.0)
+    ground.vertices_W = [[-3.0, -4.0, 0.0], [7.0, -4.0, 0.0], [7.0, 4.0, 0.0], [-3.0, 4.0, 0.0]]
+    scene = mp.Scene(
+        surfaces=[ground],
+        start=mp.model.Stance(contacts={"foot": "floor"}),
+        goal=mp.model.Stance(position_W=[4.1, 0.3, 0.0], yaw=2.8, contacts={"foot": "floor"}),
+    )
+    result = mp.plan(scene, robot)
+    assert result.report.status == mp.Status.solved, result.report.message
+    assert result.report.iterations < 1000
+    assert result.report.cost < 0.01 * len(result.plan.phases)
+    assert result.report.cost < 0.5
+
+
 def test_what_strains_in_as_many_phases_as_are_given_is_walked_from_footsteps() -> None:
     robot = mp.load_robot("g1")
     scene = solvable_scene(20113, robot)

@@ -60,8 +60,8 @@ double depth_in(const Solid& solid, const Eigen::AlignedBox3d& box, const Part& 
   Eigen::AlignedBox3d around(part.from);
   around.extend(Vector3d(part.from + part.along));
   if (box.squaredExteriorDistance(around) >= radius * radius) return -radius;  // most, where there are many
-  const double s = nearest_on_line(solid.polygon, solid.thickness, part.from, part.along);
-  return radius - std::max(outside_solid(solid.polygon, solid.thickness, part.from + s * part.along).distance, 0.0);
+  return radius -
+         std::max(nearest_on_line(solid.polygon, solid.thickness, part.from, part.along).outside.distance, 0.0);
 }
 
 }  // namespace

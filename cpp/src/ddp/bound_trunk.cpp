@@ -29,9 +29,8 @@ std::optional<Impossible> part_in_solid(const Scene& scene, const Robot& robot, 
       const Polygon polygon(surface.vertices_W);
       const Eigen::AlignedBox3d box = box_of({polygon, surface.thickness});
       if (box.squaredExteriorDistance(around) >= part.radius * part.radius) continue;  // most, where there are many
-      const double s = nearest_on_line(polygon, surface.thickness, from, along);
       const double depth_m =
-          part.radius - std::max(outside_solid(polygon, surface.thickness, from + s * along).distance, 0.0);
+          part.radius - std::max(nearest_on_line(polygon, surface.thickness, from, along).outside.distance, 0.0);
       if (!(depth_m > allowed_m)) continue;
       return Impossible{std::string(name) + ": the trunk of " + robot.name + " would be " +
                             model::digits(depth_m, "%.2g") + " m deep in the solid of " + model::shown(surface.name),

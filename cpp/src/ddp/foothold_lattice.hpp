@@ -35,6 +35,7 @@ class FootholdLattice {
   const EndLimits& limits(int foot) const { return problem_->limits[feet_[foot]]; }
 
   const LatticePoint& at(int foot, int i) const { return footholds_[foot][i]; }
+  int size(int foot) const { return static_cast<int>(footholds_[foot].size()); }
 
   /// First and one past the last foothold between two stations, without those of start and goal.
   std::pair<int, int> between(int foot, double from, double to) const;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -77,71 +78,81 @@ class Path {
         strides_{strides_of(lattice.limits(0), lattice.limits(1)), strides_of(lattice.limits(1), lattice.limits(0))} {}
 
   GuessedSteps find() {
-    for (int l : {0, 1}) reach({l, FootholdLattice::kStart, FootholdLattice::kStart}, 0.0, kNone);
+    for (int foot : {0, 1}) rows_[foot].resize(lattice_->size(foot));
+    for (int l : {0, 1}) reach(begin_[l], 0.0, nullptr);
     int looks = 0;
     while (!open_.empty()) {
-      const auto [foreseen, key] = open_.top();
+      Node& node = *open_.top().node;
       open_.pop();
-      Node& node = nodes_.at(key);
       if (node.closed) continue;
       node.closed = true;
-      const At at = at_of(key);
-      if (at.landed == FootholdLattice::kGoal && at.other == FootholdLattice::kGoal) return steps_to(key);
-      if (nodes_.size() > kMostNodes || (++looks % kLooksPerRequest == 0 && *stop_ && (*stop_)())) return {};
-      expand(at, key, node.cost);
+      if (node.at.landed == FootholdLattice::kGoal && node.at.other == FootholdLattice::kGoal) return steps_to(node);
+      if (reached_ > kMostNodes || (++looks % kLooksPerRequest == 0 && *stop_ && (*stop_)())) return {};
+      for (Node& next : steps_from(node.at)) step(node, next);
     }
     return {};
   }
 
  private:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
   /// The first or the second foot has landed last; the footholds of both.
   struct At {
     int foot = 0, landed = 0, other = 0;
   };
-  using Key = std::uint64_t;
-  static constexpr Key kNone = ~Key(0);
   struct Node {
-    double cost = std::numeric_limits<double>::infinity();
-    Key from = kNone;
+    At at;
+    double level = 0.0;    ///< of the step to there, as if nothing had to be stepped over
+    double cost = kNever;  ///< from the start
+    const Node* from = nullptr;
     bool closed = false;
   };
+  /// The least foreseen comes first, of several the one that lies first.
+  struct Open {
+    double foreseen = 0.0;
+    Node* node = nullptr;
+    bool operator>(const Open& other) const { return order() > other.order(); }
+    std::tuple<double, int, int, int> order() const {
+      return {foreseen, node->at.landed, node->at.other, node->at.foot};
+    }
+  };
 
-  static Key key_of(const At& at) {
-    return (static_cast<Key>(at.landed) << 32) | (static_cast<Key>(at.other) << 1) | static_cast<Key>(at.foot);
-  }
-  static At at_of(Key key) {
-    return {static_cast<int>(key & 1), static_cast<int>(key >> 32), static_cast<int>((key & 0xffffffffu) >> 1)};
-  }
-
-  void reach(const At& at, double cost, Key from) {
-    const Key key = key_of(at);
-    Node& node = nodes_[key];
+  void reach(Node& node, double cost, const Node* from) {
     if (node.closed || !(cost < node.cost)) return;
+    reached_ += node.cost == kNever;
     node.cost = cost;
     node.from = from;
-    const double left = lattice_->length() - lattice_->at(at.foot, at.landed).station;
-    open_.push({cost + kGreed * std::max(kCheapestRate * left / strides_[at.foot].usual - 1.0, 0.0), key});
+    const double left = lattice_->length() - lattice_->at(node.at.foot, node.at.landed).station;
+    const double least = kCheapestRate * left / strides_[node.at.foot].usual - 1.0;
+    open_.push({cost + kGreed * std::max(least, 0.0), &node});
   }
 
-  void expand(const At& at, Key key, double cost) {
+  /// What can be stepped to while a foot stands at a foothold, wherever the other one comes from.
+  std::vector<Node>& steps_from(const At& at) {
+    Row& row = rows_[at.foot][at.landed];
+    if (std::exchange(row.known, true)) return row.steps;
     const int mover = 1 - at.foot;
     const LatticePoint& stance = lattice_->at(at.foot, at.landed);
     const double ahead = strides_[mover].ahead;
+    const auto add = [&](int to) {
+      const double level = price_of(mover, stance, lattice_->at(mover, to));
+      if (std::isfinite(level)) row.steps.push_back({{mover, to, at.landed}, level});
+    };
     const auto [first, last] = lattice_->between(mover, stance.station - ahead, stance.station + 1.2 * ahead);
-    for (int c = first; c < last; ++c) step(at, key, cost, mover, c);
-    step(at, key, cost, mover, FootholdLattice::kGoal);
+    for (int to = first; to < last; ++to) add(to);
+    add(FootholdLattice::kGoal);
+    return row.steps;
   }
 
-  void step(const At& at, Key key, double cost, int mover, int to) {
-    const double price = price_of(mover, lattice_->at(at.foot, at.landed), at.other, to);
-    if (std::isfinite(price)) reach({mover, to, at.landed}, cost + price, key);
+  /// Most steps lead to where a cheaper one does: how high feet are to be lifted is not asked of them.
+  void step(const Node& node, Node& next) {
+    if (next.closed || !(node.cost + next.level < next.cost)) return;
+    reach(next, node.cost + (next.level + lift_price(next.at, node.at.other)), &node);
   }
 
-  /// Of a step beside the foot that stands; infinite where it cannot be made.
-  double price_of(int mover, const LatticePoint& stance, int from, int to) {
-    constexpr double kNever = std::numeric_limits<double>::infinity();
+  /// Of a step beside the foot that stands; infinite where it cannot be made. What is to be stepped over comes on top.
+  double price_of(int mover, const LatticePoint& stance, const LatticePoint& next) const {
     const Strides& most = strides_[mover];
-    const LatticePoint& next = lattice_->at(mover, to);
     const Vector3d off = next.place - stance.place;
     const double yaw = 0.5 * (next.yaw + stance.yaw), cosine = std::cos(yaw), sine = std::sin(yaw);
     const double ahead = cosine * off.x() + sine * off.y();
@@ -150,32 +161,36 @@ class Path {
     if (std::abs(next.yaw - stance.yaw) > kTurnStride || std::abs(off.z()) > kMostRise * most.rise) return kNever;
     const Eigen::Vector4d ratios(ahead / (stride_ratio_ * most.usual), (width - most.nominal_width) / most.box_width,
                                  kHigh * off.z() / most.rise, kTurned * (next.yaw - stance.yaw));
-    const double lift = lift_of(mover, from, to);
-    const LatticePoint& last = lattice_->at(mover, from);
-    const double top = lift + 0.5 * (last.place.z() + next.place.z());  // half way
-    if (top - stance.place.z() > most.height) return kNever;
-    const double lifted = std::max(lift / problem_->swing_height - 1.0, 0.0);
     const double far = ratios.squaredNorm();
-    return 1.0 + kFar * far * far + kLifted * lifted * lifted + kEdge * next.near_edge +
-           kBeside * next.beside * next.beside;
+    return 1.0 + kFar * far * far + kEdge * next.near_edge + kBeside * next.beside * next.beside;
+  }
+
+  /// Of lifting the foot that has landed over what lies between there and where it was; infinite where it is too high.
+  double lift_price(const At& at, int from) {
+    const LatticePoint &last = lattice_->at(at.foot, from), &next = lattice_->at(at.foot, at.landed);
+    const double lift = lift_of(at.foot, from, at.landed);
+    const double top = lift + 0.5 * (last.place.z() + next.place.z());  // half way
+    if (top - lattice_->at(1 - at.foot, at.other).place.z() > strides_[at.foot].height) return kNever;
+    const double lifted = std::max(lift / problem_->swing_height - 1.0, 0.0);
+    return kLifted * lifted * lifted;
   }
 
   /// How high a swing has to be lifted.
   double lift_of(int l, int from, int to) {
-    const Key key = key_of({l, from, to});
+    const std::uint64_t key = ((static_cast<std::uint64_t>(from) << 31 | static_cast<std::uint64_t>(to)) << 1) | l;
     const auto known = lifts_.find(key);
     if (known != lifts_.end()) return known->second;
     return lifts_[key] = lattice_->lift(l, lattice_->at(l, from), lattice_->at(l, to));
   }
 
-  GuessedSteps steps_to(Key key) {
+  GuessedSteps steps_to(const Node& goal) {
     constexpr double kRounding = 1e-9;
     GuessedSteps out;
-    out.price = nodes_.at(key).cost;
-    for (; nodes_.at(key).from != kNone; key = nodes_.at(key).from) {
-      const At at = at_of(key);
+    out.price = goal.cost;
+    for (const Node* node = &goal; node->from; node = node->from) {
+      const At& at = node->at;
       const LatticePoint& foothold = lattice_->at(at.foot, at.landed);
-      const int from = at_of(nodes_.at(key).from).other;
+      const int from = node->from->at.other;
       const bool along = lattice_->at(at.foot, from).surface == foothold.surface;
       out.even = out.even && along && lift_of(at.foot, from, at.landed) < kRounding;
       out.steps.push_back({lattice_->feet()[at.foot], foothold.surface, foothold.place, foothold.share});
@@ -184,14 +199,21 @@ class Path {
     return out;
   }
 
+  struct Row {
+    bool known = false;
+    std::vector<Node> steps;
+  };
   const Problem* problem_;
   const FootholdLattice* lattice_;
   double stride_ratio_;
   const StopRequest* stop_;
   std::array<Strides, 2> strides_;
-  std::unordered_map<Key, Node> nodes_;
-  std::unordered_map<Key, double> lifts_;
-  std::priority_queue<std::pair<double, Key>, std::vector<std::pair<double, Key>>, std::greater<>> open_;
+  std::array<Node, 2> begin_{{{{0, FootholdLattice::kStart, FootholdLattice::kStart}},
+                              {{1, FootholdLattice::kStart, FootholdLattice::kStart}}}};
+  std::array<std::vector<Row>, 2> rows_;  ///< by the foot that stands, and its foothold
+  std::size_t reached_ = 0;               ///< nodes
+  std::unordered_map<std::uint64_t, double> lifts_;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
 };
 
 /// The two feet on which the robot stands at the start and at the goal; -1: it has others, or stands on hands as well.

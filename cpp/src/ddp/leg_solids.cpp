@@ -63,8 +63,7 @@ void Problem::make_leg_rooms() {
         const LegLines lines(limb, ankle, hip.place_W - ankle, level.col(0));
         for (const LegLines::Part part : {LegLines::thigh, LegLines::shank}) {
           const Vector3d from = lines.from(part), along = lines.along(part);
-          const double s = nearest_on_line(polygons[solid], thickness[solid], from, along);
-          room = std::min(room, outside_solid(polygons[solid], thickness[solid], from + s * along).distance);
+          room = std::min(room, nearest_on_line(polygons[solid], thickness[solid], from, along).outside.distance);
         }
       }
       leg_rooms[l].push_back(std::max(room, limb.radius));

@@ -91,6 +91,7 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
   if (!way.walk_known) walked = walk_near_and_far(way, report, beside);
   if (walked.done()) return std::move(walked.found);
   Found found = search_phases(way, report, beside);
+  if (walked.found.steps == 0) walk_evenly(report, found, beside);
   if (!better_walk(walked.found, found)) return found;
   if (!ended_by_itself(found.ending)) walked.found.ending = found.ending;
   return std::move(walked.found);

@@ -238,8 +238,7 @@ void Problem::make_trunk_rooms() {
       for (const VectorXd* x : {&reference.x.front(), &reference.x.back()}) {
         const Eigen::Matrix3d r = rotation_from_rpy(rpy(*x));
         const Vector3d from = x->segment<3>(layout.com()) + r * part.from_B, along = r * (part.to_B - part.from_B);
-        const double s = nearest_on_line(polygons[solid], thickness[solid], from, along);
-        room = std::min(room, outside_solid(polygons[solid], thickness[solid], from + s * along).distance);
+        room = std::min(room, nearest_on_line(polygons[solid], thickness[solid], from, along).outside.distance);
       }
       rooms.push_back(std::max(room, part.radius));
     }

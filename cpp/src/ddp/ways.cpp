@@ -238,8 +238,8 @@ std::vector<WaysToGoal::Ahead> WaysToGoal::search_ahead(const std::vector<Way>& 
     out[i].before = out[i].report.iterations = before.iterations;
     Found found = search_along(ways[i], out[i].report, &beside);
     if (stop()) return false;
-    out[i].found.emplace(std::move(found));
-    return false;
+    const Found& known = out[i].found.emplace(std::move(found));
+    return std::all_of(ways.begin() + i + 1, ways.end(), [&](const Way& way) { return longer(way, known); });
   });
   return out;
 }
@@ -256,6 +256,12 @@ double WaysToGoal::phases_facing(const Route& route) const {
   counted.initial_sequence.clear();
   return static_cast<double>(Problem(*scene_, *robot_, counted, facing).steps) /
          Problem(*scene_, *robot_, counted, {route, false}).steps;
+}
+
+/// Whether a way is hardly easier than the one of the best plan. Other footsteps are worth a search where they are
+/// easier by more than what courses beside each other differ in.
+bool WaysToGoal::in_vain(const Way& way, const Found& best) const {
+  return longer(way, best) || (best.easy_walk && price_of(way) > kEasier * price_of(best.way));
 }
 
 /// Detours, and straight on; on each the base turns to the way where that takes fewer phases.
@@ -294,8 +300,7 @@ Found WaysToGoal::search(Report& report) const {
     }
     if (!ended_by_itself(cut_short)) return;
     const bool any = best && best->best.ok();
-    // Other footsteps are worth a search where they are easier by more than what courses beside each other differ in.
-    if (any && way.brief && best->easy_walk && price_of(way) > kEasier * price_of(best->way)) return;
+    if (any && way.brief && in_vain(way, *best)) return;
     const bool as_listed = !way.brief || (any && !best->way.longer);
     way.longer = way.brief && any && best->way.longer;
     way.brief = way.brief && any;

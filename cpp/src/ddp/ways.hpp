@@ -23,6 +23,7 @@ struct Way {
   bool longer = false;       ///< at once in more phases than its length asks for, as the plan that there is
   bool crawl_known = false;  ///< what a crawl comes to is known
   bool walk_known = false;   ///< and what footsteps come to
+  bool even_too = false;     ///< footsteps are tried though all of them are alike
   int iterations = 0;        ///< of the report, after which it ends; 0: the limit of the options
   bool over_bars = false;    ///< the ground is cut at what stands low across the way
   bool far = false;          ///< feet reach all of their boxes, beyond what is usual of them
@@ -37,6 +38,7 @@ struct Found {
   bool crawled = false;                 ///< also in more phases than the way asks for
   bool tried_more = false;              ///< in more phases than the way asks for
   bool easy_walk = false;               ///< from footsteps
+  bool even_ground = false;             ///< where these are all alike
   std::vector<int> surfaces = {};       ///< that it has looked at
   std::optional<Barrier> barrier = {};  ///< why no ground leads to the goal
 };
@@ -88,6 +90,9 @@ class WaysToGoal {
   void try_more_phases(Report& report, Found& found, const Beside* beside = nullptr) const;
   bool steps_freely() const;
   double price_of(const Way& way) const;
+  bool longer(const Way& way, const Found& easy) const;
+  bool in_vain(const Way& way, const Found& best) const;
+  Found walk_in(double stride_ratio, int again, const Way& way, Report& report, const Beside* beside) const;
   Found walk_with(double stride_ratio, int again, const Way& way, Report& report, const Beside* beside) const;
   /// What footsteps have led to; `easy`: there is no need to look for another plan.
   struct Walked {
@@ -96,6 +101,7 @@ class WaysToGoal {
     bool done() const;
   };
   Walked walk_near_and_far(const Way& way, Report& report, const Beside* beside) const;
+  void walk_evenly(Report& report, Found& found, const Beside* beside) const;
   std::optional<Found> walk_over(Way& bars, Report& report) const;
   Walked walk_along(const Way& way, Report& report, const Beside* beside) const;
   void walk_at_last(Report& report, Found& found) const;

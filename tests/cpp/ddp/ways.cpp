@@ -15,12 +15,13 @@ using mcplan::Report;
 using mcplan::Scene;
 
 /// Two floors with a hole between them, so long, and on each side of it a bridge, so far from the middle.
-Scene bridges(double length = 1.6, double aside = 0.4) {
+Scene bridges(double length = 1.6, double aside = 0.4, double to_the_left = 0.0) {
   const double end = 0.5 + length;
   Scene scene = scenes::made_of(
       "hole", {scenes::rectangle("a", -1, 0.5, -2, 2, 0), scenes::rectangle("b", end, end + 1.9, -2, 2, 0)}, "a", "b",
       {end + 0.5, 0, 0});
-  scene.surfaces.push_back(scenes::rectangle("left", 0.5, end, aside, aside + 0.6, 0));
+  const double left = to_the_left > 0.0 ? to_the_left : aside;
+  scene.surfaces.push_back(scenes::rectangle("left", 0.5, end, left, left + 0.6, 0));
   scene.surfaces.push_back(scenes::rectangle("right", 0.5, end, -aside - 0.6, -aside, 0));
   return scene;
 }
@@ -92,4 +93,20 @@ TEST_CASE("once a way has a plan, the others are tried without restarts") {
   CHECK(one.by_route);
   CHECK(one.iterations == restarted.iterations);
   CHECK(one.cost == restarted.cost);
+}
+
+TEST_CASE("once a plan is easy, ways that ask for far more phases are not searched, with any number of threads") {
+  if (kSlowBuild) return;
+  const Scene scene = bridges(1.6, 0.4, 1.4);
+  std::vector<std::string> alone, beside;
+  Options options;
+  options.threads = 1;
+  const Outcome one = searched(options, &alone, scene);
+  options.threads = 2;
+  const Outcome two = searched(options, &beside, scene);
+  CHECK(one.by_route);
+  CHECK(alone.size() == 2);  // by the bridge that is near, and straight on; not by the one that is far to the left
+  CHECK(alone == beside);
+  CHECK(one.rows == two.rows);
+  CHECK(one.cost == two.cost);
 }

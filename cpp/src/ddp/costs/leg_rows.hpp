@@ -38,8 +38,7 @@ inline void write_leg_rows(const StepView& step, const Instant& instant, const A
       const double room = problem.leg_rooms[step.l][i];
       if (part == LegLines::shank && solid == step.surface) continue;
       if (problem.solid_boxes[solid].squaredExteriorDistance(around) >= room * room) continue;
-      const double s = nearest_on_line(problem.polygons[solid], problem.thickness[solid], from, along);
-      const Outside outside = outside_solid(problem.polygons[solid], problem.thickness[solid], from + s * along);
+      const auto [s, outside] = nearest_on_line(problem.polygons[solid], problem.thickness[solid], from, along, room);
       if (outside.distance >= room) continue;
       if (!rows.with_gradient()) {
         rows.add_value(step.schedule.interior_weight, outside.distance - room);

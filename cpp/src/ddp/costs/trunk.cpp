@@ -65,9 +65,8 @@ class TrunkTerm final : public CostTerm {
         const int solid = problem.trunk_solids[i];
         const double room = problem.trunk_rooms[j][i];
         if (problem.solid_boxes[solid].squaredExteriorDistance(around) >= room * room) continue;
-        const Polygon& polygon = problem.polygons[solid];
-        const double s = nearest_on_line(polygon, problem.thickness[solid], from, along);
-        const Outside outside = outside_solid(polygon, problem.thickness[solid], from + s * along);
+        const auto [s, outside] = nearest_on_line(problem.polygons[solid], problem.thickness[solid], from, along, room);
+        if (outside.distance >= room) continue;
         const Vector3d place = part.from_B + s * (part.to_B - part.from_B);
         Vector3d turn = Vector3d::Zero();
         for (int axis : problem.layout.axes()) turn[axis] = outside.outward.dot(rotation_derivative(rpy, axis) * place);
