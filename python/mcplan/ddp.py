@@ -27,6 +27,7 @@ from mcplan._core.ddp import (
     SwitchedDdp,
     VelocityCommand,
     Weights,
+    on_joined_ground,
 )
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ __all__ = [
     "SwitchedDdp",
     "VelocityCommand",
     "Weights",
+    "on_joined_ground",
     "plan",
     "replan",
 ]

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan._core import Plan, Robot, Scene, Status
+from mcplan._core import Plan, Robot, Scene, Status, join_surfaces
+from mcplan._core.ddp import on_joined_ground
 from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean, shown
 from mcplan.kinematics.urdf_model import require_urdf
@@ -59,7 +60,8 @@ def run_any(
 
         true_scene = load_scene(true_scene)
     own = robot if isinstance(scene, Plan) else None
-    return run(first_plan(scene, robot, online), own, options, online, *beside[:2], true_scene, beside.steer)
+    begins = first_plan(scene, robot, online, in_pieces=true_scene is not None)
+    return run(begins, own, options, online, *beside[:2], true_scene, beside.steer)
 
 
 def chosen_options(values: Mapping[str, Any]) -> tuple[Options, OnlineOptions]:
@@ -85,9 +87,19 @@ def chosen_options(values: Mapping[str, Any]) -> tuple[Options, OnlineOptions]:
 
 
 def first_plan(
-    scene: Scene | Plan | str | Path, robot: Robot | str | Path | None, online: OnlineOptions | None = None
+    scene: Scene | Plan | str | Path,
+    robot: Robot | str | Path | None,
+    online: OnlineOptions | None = None,
+    in_pieces: bool = False,
 ) -> Plan:
-    """The plan to begin with: given, loaded, or found for a scene; by rhp where that replans.
+    """The plan to begin with: given, loaded, or found for a scene; by rhp where that replans. Of ddp's it is one on whole
+    ground, on which replans may step across the seams of tiles.
+
+    Args:
+        scene: Where to walk, or the plan.
+        robot: Who walks, with a scene.
+        online: What is asked for.
+        in_pieces: Surfaces stay as they are, since the ground that is simulated names them.
 
     Raises:
         InvalidInput: No plan was found, or no robot was named.
@@ -95,6 +107,8 @@ def first_plan(
         InvalidRobot: It has no URDF.
     """
     begins = _plan_or_walk(scene, robot)
+    if not in_pieces and (online is None or online.engine == "ddp"):
+        begins = _on_whole_ground(begins)
     ground, walker = (begins.scene, begins.robot) if isinstance(begins, Plan) else begins
     require_urdf(walker)  # before a search, not after it
     if online is not None:
@@ -106,6 +120,15 @@ def first_plan(
     if isinstance(begins, Plan):
         return begins if begins.planner == "rhp" else first_walk(begins.scene, begins.robot, online, begins)
     return first_walk(*begins, online)
+
+
+def _on_whole_ground(begins: Plan | tuple[Scene, Robot]) -> Plan | tuple[Scene, Robot]:
+    """The plan, or the scene, on surfaces that are joined; itself where none are to be."""
+    scene = begins.scene if isinstance(begins, Plan) else begins[0]
+    whole = join_surfaces(scene)
+    if len(whole.surfaces) == len(scene.surfaces):
+        return begins
+    return on_joined_ground(begins) if isinstance(begins, Plan) else (whole, begins[1])
 
 
 def names_plan(scene: str | Path) -> bool:

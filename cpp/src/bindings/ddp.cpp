@@ -3,6 +3,7 @@
 #include "ddp/cost_terms.hpp"
 #include "ddp/options_fields.hpp"
 #include "fields.hpp"
+#include "mcplan/ddp/plan.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
 #include "signals.hpp"
 
@@ -41,6 +42,11 @@ void bind_ddp(py::module_& parent) {
   py::module_ m = parent.def_submodule("ddp", "Contact-sequence search by switched differential dynamic programming.");
   bind_ddp_options(m);
   m.attr("Result") = parent.attr("PlanResult");
+  m.def(
+      "on_joined_ground", &ddp::on_joined_ground, py::arg("plan"),
+      "The same plan on ground that is whole, as plan() searches it: surfaces in one plane that touch, and make a "
+      "convex one together, are one, with the name of the first. Replans keep soles within surfaces; on this they may "
+      "cross seams. Raises InvalidPlan, InvalidScene.");
   py::class_<SwitchedDdp> c(
       m, "SwitchedDdp",
       "Contact-sequence search for one scene and robot. Solves release the GIL; Ctrl-C ends them, and "

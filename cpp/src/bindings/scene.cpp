@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "mcplan/scene/polygon.hpp"
+#include "scene/joined_surfaces.hpp"
 #include "scene/scene_fields.hpp"
 
 namespace mcplan::bindings {
@@ -44,6 +45,15 @@ void bind_scene(py::module_& m) {
   bind_fields<Step>(m);
   py::class_<Scene> c = bind_fields<Scene>(m);
   c.def("surface_index", &Scene::surface_index, py::arg("surface_name"), "Index into surfaces, or -1.");
+  m.def(
+      "join_surfaces",
+      [](const Scene& scene) {
+        scene.validate();
+        return join_surfaces(scene).scene;
+      },
+      py::arg("scene"),
+      "The scene with surfaces as one that lie in one plane, touch, and make a convex one together; with the name of "
+      "the first, which start, goal and steps name then. Raises InvalidScene.");
   c.def("validate", &Scene::validate, "Raise InvalidScene naming all that is out of its range.");
 }
 

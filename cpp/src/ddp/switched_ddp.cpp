@@ -10,11 +10,13 @@
 #include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
 #include "ddp/impossible.hpp"
+#include "ddp/joined_ground.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
 #include "ddp/ways.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/ddp/replan.hpp"
+#include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
 #include "model/text.hpp"
@@ -61,14 +63,40 @@ struct SwitchedDdp::Impl {
   }
   /// Whether the first state of a plan is the start's; with Model::lipm the CoM may begin a little elsewhere.
   bool begins_at_stance() const { return options.method == Method::standard && options.model == Model::wrench; }
-  PlanResult solve(const Plan* earlier);
+  PlanResult solve(const Plan* earlier) const;
+  PlanResult solve_joined(const JoinedGround& ground, const Plan* earlier, const Deadline& deadline) const;
+  PlanResult solve_within(const Plan* earlier, const Deadline& deadline) const;
   PlanResult conclude(const Found& found, Report&& report, double time_s) const;
   std::string message_of(Status status, const Found& found, const Report& report) const;
   PlanResult without_plan(Report&& report) const;
 };
 
-PlanResult SwitchedDdp::Impl::solve(const Plan* earlier) {
+/// On surfaces that are whole. What comes of that is checked on the pieces, too: there it has to be solved.
+PlanResult SwitchedDdp::Impl::solve(const Plan* earlier) const {
   const Deadline deadline(options.time_limit_s, options.clock);
+  const JoinedGround ground(scene);
+  if (options.method == Method::paper || !ground.any() || (earlier && !ground.fits(*earlier)))
+    return solve_within(earlier, deadline);
+  PlanResult out = solve_joined(ground, earlier, deadline);
+  if (out.report.status != Status::solved || check(out.plan, scene, robot).ok()) return out;
+  return solve_within(earlier, deadline);
+}
+
+PlanResult SwitchedDdp::Impl::solve_joined(const JoinedGround& ground, const Plan* earlier,
+                                           const Deadline& deadline) const {
+  Impl whole{ground.scene(), robot, options};
+  for (std::vector<int>& contacts : whole.options.initial_sequence) ground.join(contacts);
+  if (options.watch) whole.options.watch = [&](const Plan& plan) { options.watch(ground.take_apart(plan)); };
+  std::optional<Plan> begin;
+  if (earlier) begin = ground.join(*earlier);
+  PlanResult out = whole.solve_within(begin ? &*begin : nullptr, deadline);
+  out.plan = ground.take_apart(std::move(out.plan));
+  for (Iteration& row : out.report.history)
+    for (std::vector<int>& contacts : row.sequence) ground.take_apart(contacts);
+  return out;
+}
+
+PlanResult SwitchedDdp::Impl::solve_within(const Plan* earlier, const Deadline& deadline) const {
   Report report;
   report.seed = options.seed;
   report.threads = options.threads;

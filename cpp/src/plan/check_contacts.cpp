@@ -8,13 +8,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// contact_distance: |n . (p - v)|.  contact_polygon: distance of p's projection beyond the boundary (negative inside).
+/// contact_distance: |n . (p - v)|.  contact_polygon: distance of p's projection beyond the boundary (negative inside)
+/// of the surface and what goes on in its plane.
 /// Each of them a Constraint or a StateLimit, for which the slack of a measured start counts.
 template <class Limit>
-void offer_place(Limit distance, Limit beyond, const Polygon& polygon, const Vector3d& position, const Place& place,
-                 Findings& findings) {
-  findings.offer(distance, std::abs(polygon.height(position)), place);
-  findings.offer(beyond, beyond_polygon(polygon, position), place);
+void offer_place(const Problem& problem, Limit distance, Limit beyond, int surface, const Vector3d& position,
+                 const Place& place, Findings& findings) {
+  findings.offer(distance, std::abs(problem.solids[surface].polygon.height(position)), place);
+  findings.offer(beyond, beyond_ground(problem, surface, place.end_effector, position), place);
 }
 
 bool has_own_yaw(const Problem& problem, int phase) { return !problem.plan.knots[phase].end_effector_yaw.empty(); }
@@ -40,6 +41,23 @@ double beyond_polygon(const Polygon& polygon, const Vector3d& position) {
   return (projected - polygon.nearest(projected)).norm();
 }
 
+double beyond_ground(const Problem& problem, int surface, int l, const Vector3d& position) {
+  constexpr double kLevel_m = 0.002, kTilted = 0.01;
+  const Polygon& own = problem.solids[surface].polygon;
+  double beyond = beyond_polygon(own, position);
+  for (std::size_t i = 0; i < problem.solids.size() && beyond > 0.0; ++i) {
+    const Surface& other = problem.scene.surfaces[i];
+    const Polygon& polygon = problem.solids[i].polygon;
+    if (other.friction < problem.scene.surfaces[surface].friction || other.grasp) continue;
+    if (!may_touch(other, problem.robot.end_effectors[l]) || std::abs(polygon.height(position)) > kLevel_m) continue;
+    if (polygon.normal_W().dot(own.normal_W()) < 0.0 || polygon.normal_W().cross(own.normal_W()).norm() > kTilted)
+      continue;
+    if (polygon.outside(own.centroid_W()) <= 0.0 || own.outside(polygon.centroid_W()) <= 0.0) continue;
+    beyond = std::min(beyond, beyond_polygon(polygon, position));
+  }
+  return beyond;
+}
+
 double sole_yaw(const Problem& problem, const Sample& sample, int l) {
   return has_own_yaw(problem, sample.phase) ? sample.at.end_effectors[l].yaw : sample.yaw;
 }
@@ -48,7 +66,7 @@ void check_contact_place(const Problem& problem, const Sample& sample, Findings&
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int surface = problem.surface(sample.phase, l);
     if (surface < 0 || sample.still[l]) continue;
-    offer_place(StateLimit::contact_distance, StateLimit::contact_polygon, problem.solids[surface].polygon,
+    offer_place(problem, StateLimit::contact_distance, StateLimit::contact_polygon, surface,
                 sample.at.end_effectors[l].position_W, {sample.phase, l, sample.time_s}, findings);
   }
 }
@@ -58,13 +76,14 @@ void check_contact_place_at_end(const Problem& problem, const Sample& last, Find
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int surface = problem.surface(last.phase + 1, l);
     if (surface < 0) continue;
-    const Polygon& polygon = problem.solids[surface].polygon;
     const Vector3d& position = last.at.end_effectors[l].position_W;
     const Place place{last.phase, l, last.time_s};
     if (surface == problem.surface(last.phase, l))
-      offer_place(StateLimit::contact_distance, StateLimit::contact_polygon, polygon, position, place, findings);
+      offer_place(problem, StateLimit::contact_distance, StateLimit::contact_polygon, surface, position, place,
+                  findings);
     else
-      offer_place(Constraint::contact_distance, Constraint::contact_polygon, polygon, position, place, findings);
+      offer_place(problem, Constraint::contact_distance, Constraint::contact_polygon, surface, position, place,
+                  findings);
   }
 }
 

@@ -280,6 +280,10 @@ double beyond_sole(const Eigen::Vector2d& half_size, const Eigen::Vector3d& norm
 /// Distance from the projection of a point to the polygon; inside, less than zero: minus the distance to the boundary.
 double beyond_polygon(const Polygon& polygon, const Eigen::Vector3d& position_W);
 
+/// The same of a surface and those beside it that go on in its plane, on which a sole that stands on it may press, too:
+/// with the same friction or more, for this end-effector. What lies on or about it does not.
+double beyond_ground(const Problem& problem, int surface, int l, const Eigen::Vector3d& position_W);
+
 /// An end-effector at an instant of a phase.
 struct Seen {
   double since_start_s = 0.0;

@@ -144,7 +144,7 @@ void check_torsion(const Problem& problem, const Sample& sample, Findings& findi
 }
 
 /// a_l lies on the sole, a rectangle about p_l with the sole's own heading (on p_l itself, without a sole), and where
-/// the sole touches: on the surface's plane and in its polygon.
+/// the sole touches: on the surface's plane, and in its polygon or one that goes on in that plane.
 void check_center_of_pressure(const Problem& problem, const Sample& sample, Findings& findings) {
   const bool own_yaw = !problem.plan.knots[sample.phase].end_effector_yaw.empty();
   for (int l = 0; l < problem.end_effector_count(); ++l) {
@@ -158,7 +158,7 @@ void check_center_of_pressure(const Problem& problem, const Sample& sample, Find
                                sole_yaw(problem, sample, l), center - sample.at.end_effectors[l].position_W),
                    place);
     findings.offer(Constraint::center_of_pressure, std::abs(polygon.height(center)), place);
-    findings.offer(Constraint::center_of_pressure, beyond_polygon(polygon, center), place);
+    findings.offer(Constraint::center_of_pressure, beyond_ground(problem, surface, l, center), place);
   }
 }
 

@@ -85,6 +85,7 @@ __all__: list[str] = [
     "ddp",
     "file_kind",
     "ipm",
+    "join_surfaces",
     "largest_drift",
     "least_norm_gain",
     "load_planar_robot",
@@ -3649,6 +3650,11 @@ def data_folder() -> typing.Any:
 def file_kind(content: bytes) -> str:
     """
     What a file is by its content, with its article, such as "a PNG picture"; "" where nothing tells.
+    """
+
+def join_surfaces(scene: Scene) -> Scene:
+    """
+    The scene with surfaces as one that lie in one plane, touch, and make a convex one together; with the name of the first, which start, goal and steps name then. Raises InvalidScene.
     """
 
 def largest_drift(plan: PlanarPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Drift:

@@ -21,6 +21,7 @@ __all__: list[str] = [
     "SwitchedDdp",
     "VelocityCommand",
     "Weights",
+    "on_joined_ground",
     "replan",
 ]
 
@@ -834,6 +835,11 @@ class ReplanOptions:
         """
     @start_slack_s.setter
     def start_slack_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+def on_joined_ground(plan: mcplan._core.Plan) -> mcplan._core.Plan:
+    """
+    The same plan on ground that is whole, as plan() searches it: surfaces in one plane that touch, and make a convex one together, are one, with the name of the first. Replans keep soles within surfaces; on this they may cross seams. Raises InvalidPlan, InvalidScene.
+    """
 
 def replan(
     previous: mcplan._core.Plan,

@@ -211,7 +211,7 @@ def _run(
     progress.working("planning")
     scene, robot, true_scene = walk
     try:
-        plan = first_plan(scene, robot, online)
+        plan = first_plan(scene, robot, online, in_pieces=true_scene is not None)
     finally:
         progress.end()
     if robot is not None and names_plan(scene) and not (telling.quiet or telling.json):
