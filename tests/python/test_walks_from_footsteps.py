@@ -104,3 +104,16 @@ def test_a_goal_that_is_very_far_away_is_no_matter_of_memory() -> None:
     scene.goal.position_W = [far, 0.0, 0.0]
     result = mp.plan(scene, "talos", time_limit_s=0.2)
     assert result.report.status != mp.Status.solved
+
+
+def test_four_feet_walk_over_a_block() -> None:
+    """go2 had its feet on the ground beside the block, inside it, until its iterations were used up."""
+    ground = strip("g", -1.0, 5.0, 0.0)
+    scene = mp.Scene(
+        surfaces=[ground, strip("p", 1.0, 2.0, 0.15)],
+        start=mp.model.Stance(contacts={"foot": "g"}),
+        goal=mp.model.Stance(position_W=[3.2, 0.0, 0.0], contacts={"foot": "g"}),
+    )
+    result = mp.plan(scene, "go2")
+    assert result.report.status == mp.Status.solved, result.report.message
+    assert any(contact.surface == 1 for phase in result.plan.phases for contact in phase.contacts)

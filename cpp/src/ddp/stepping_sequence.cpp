@@ -25,6 +25,18 @@ void sort_as_crawl(const Problem& problem, std::vector<int>& movers) {
   std::stable_sort(movers.begin(), movers.end(), [&](int a, int b) { return turn(a) < turn(b); });
 }
 
+/// Whether a place on a surface is in the solid of another one.
+bool is_buried(const Problem& problem, const SurfaceBoxes& boxes, int surface, const Vector3d& place) {
+  constexpr double kDeep = 0.02;  // in CoM heights: what is thinner than that lies on it
+  for (int i = 0; i < static_cast<int>(problem.polygons.size()); ++i) {
+    const double thickness = problem.thickness[i];
+    if (i == surface || boxes.min_squared_distance(i, place) > thickness * thickness) continue;
+    const double depth = -problem.polygons[i].height(place);
+    if (depth > kDeep && depth < thickness + kDeep && problem.polygons[i].outside(place) < 0.0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool balances_on_points(const Problem& problem) {
@@ -60,8 +72,9 @@ ContactSequence stepping_sequence(const Problem& problem, int first_mover) {
       double nearest = std::numeric_limits<double>::infinity();
       for (int surface : problem.rules.surfaces(l)) {
         if (boxes.min_squared_distance(surface, desired) > nearest * nearest) continue;
-        const double distance = (problem.polygons[surface].nearest(desired) - desired).norm();
-        if (distance >= nearest) continue;
+        const Vector3d place = problem.polygons[surface].nearest(desired);
+        const double distance = (place - desired).norm();
+        if (distance >= nearest || is_buried(problem, boxes, surface, place)) continue;
         nearest = distance;
         now[l] = surface;
       }

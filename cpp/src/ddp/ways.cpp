@@ -14,6 +14,7 @@
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
 #include "ddp/stepping_sequence.hpp"
+#include "ddp/straight_over.hpp"
 #include "model/text.hpp"
 
 namespace mcplan::ddp {
@@ -280,6 +281,9 @@ WaysToGoal::Listed WaysToGoal::ways_of(const Routes& routes, bool given, int lea
   };
   for (const Route& route : routes.detours) add(route, false, out.sure);
   add({}, options_->allow_flight, routes.obstructed ? out.otherwise : out.sure);
+  const Route over = !given && least > 0 ? straight_over(*scene_, *robot_) : Route();
+  std::vector<Way>& among = routes.barrier ? out.sure : out.otherwise;
+  if (!over.empty()) among.insert(among.begin(), Way{{over, false}, false, least});
   for (std::size_t i = 1; i < out.sure.size(); ++i) out.sure[i].brief = true;
   return out;
 }
