@@ -59,6 +59,10 @@ void require_shape(const Plan& plan, const Scene& scene, const Robot& robot) {
   if (std::isfinite(plan.start_slack_s)) require_start_slack(plan);
   require_size("knots", plan.knots.size(), n + 1);
   require_size("robot.end_effectors", plan.robot.end_effectors.size(), end_effectors);
+  for (std::size_t l = 0; l < end_effectors; ++l)
+    if (const std::string& name = robot.end_effectors[l].name; name != plan.robot.end_effectors[l].name)
+      throw InvalidRobot("end_effectors[" + std::to_string(l) + "].name",
+                         "must be that of the plan's robot, " + text(plan.robot.end_effectors[l].name), text(name));
   require_size("final_contacts", plan.final_contacts.size(), end_effectors);
   for (std::size_t k = 0; k <= n; ++k) {
     const std::string field = "knots[" + std::to_string(k) + "]";

@@ -66,6 +66,11 @@ class RunResult(TrackingResult):
         return self.completed and not self._short_of_goal()
 
     @property
+    def falls_at_end(self) -> bool:
+        """Of a run that ends when its time is up, maybe on the way, nothing is said."""
+        return False
+
+    @property
     def command_reached(self) -> tuple[CommandReached, ...]:
         """Velocities that were commanded, and at which the robot walked meanwhile."""
         return commands_reached(self.recording, self.online_options)

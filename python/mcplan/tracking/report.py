@@ -25,6 +25,8 @@ class Reported(Protocol):
     def interrupted(self) -> bool: ...
     @property
     def completed(self) -> bool: ...
+    @property
+    def falls_at_end(self) -> bool: ...
 
 
 def report(result: Reported) -> str:
@@ -53,6 +55,8 @@ def ending(result: Reported) -> str:
         return f"fell after {measures.completed_s:.2f} s"
     if result.interrupted:
         return f"interrupted after {measures.completed_s:.2f} s, until then without a fall"
+    if result.falls_at_end:
+        return f"about to fall at the end, after {measures.completed_s:.2f} s: its capture point is beside its soles"
     return f"followed to the end: {measures.completed_s:.2f} s without a fall"
 
 

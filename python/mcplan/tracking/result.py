@@ -14,6 +14,7 @@ from .options import Options
 from .recording import Recording, recording_from
 from .report import report
 from .run_files import RUN, Arrays, Header, RunParts, load_run, measures_of, options_of, save_run
+from .standing import falls_at_end
 
 
 @dataclass(frozen=True)
@@ -39,8 +40,13 @@ class TrackingResult:
 
     @property
     def followed(self) -> bool:
-        """The same; of planar robots more is asked, see PlanarResult.followed."""
-        return self.completed
+        """The same, and the robot stands at the end; of planar robots more is asked, see PlanarResult.followed."""
+        return self.completed and not self.falls_at_end
+
+    @property
+    def falls_at_end(self) -> bool:
+        """Whether the robot cannot stand where the run left it: its capture point is beside its soles."""
+        return falls_at_end(self.recording)
 
     def save(self, path: str | Path) -> None:
         """Write everything, the plan included, to an .npz file, which is complete or not there at all."""

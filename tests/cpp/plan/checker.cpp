@@ -89,6 +89,12 @@ TEST_CASE("checker throws on arrays that do not fit together") {
   throws([](Case& c) { c.robot.end_effectors.pop_back(); });
 }
 
+TEST_CASE("checker throws on a robot whose end-effectors have other names") {
+  Case c;
+  c.robot.end_effectors[left_foot].name = "lf_foot";
+  CHECK_THROWS_WITH_AS(c.check(), doctest::Contains("must be that of the plan's robot"), mcplan::InvalidRobot);
+}
+
 TEST_CASE("checker throws on a sampling that is no sampling") {
   const Case c;
   for (double sample_s : {0.0, -1.0, 1e-7, std::nan("")}) {

@@ -14,8 +14,8 @@ namespace mcplan::ddp {
 /// SwitchedDdp is the planner behind it, for warm starts and measured states.
 PlanResult plan(const Scene& scene, const Robot& robot, const Options& options = {});
 
-/// The same plan on ground that is whole, as plan() searches it: surfaces in one plane that touch, and make a convex one
-/// together, are one, with the name of the first. Replans keep soles within surfaces; on this they may cross seams.
+/// The same plan on ground that is whole, as plan() searches it: surfaces in one plane that touch, and make a convex
+/// one together, are one, with the name of the first. Replans keep soles within surfaces; on this they may cross seams.
 /// Throws InvalidPlan, InvalidScene.
 Plan on_joined_ground(const Plan& plan);
 
