@@ -96,11 +96,13 @@ Found WaysToGoal::walk_in(double stride_ratio, int again, const Way& way, Report
   return found;
 }
 
-/// The same; on even ground, where how long steps are is free, with shorter ones, too.
+/// The same; on even ground, where how long steps are is free, with shorter ones, too, unless that takes long and there
+/// is an easy walk already.
 Found WaysToGoal::walk_with(double stride_ratio, int again, const Way& way, Report& report,
                             const Beside* beside) const {
   Found found = walk_in(stride_ratio, again, way, report, beside);
   if (!found.even_ground || !ended_by_itself(found.ending)) return found;
+  if (found.steps > kLongWalk && costs_at_most(kEasyPhase, found.best.best())) return found;
   Found shorter = walk_in(kShorter * stride_ratio, again, way, report, beside);
   if (shorter.steps == 0) return found;
   const Ending ending = shorter.ending;

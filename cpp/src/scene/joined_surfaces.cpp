@@ -15,9 +15,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Outline = std::vector<Vector2d>;  // convex, counter-clockwise
 
-/// Surfaces touch that are no further apart [m], and lie in one plane within as much and as many radians. Chosen: below
-/// what a plane fitted to a depth image is sure of.
-constexpr double kApart_m = 0.002, kTilted = 0.01;
+/// Surfaces touch that are no further apart [m]; chosen, far less than a sole. They lie in one plane that are no
+/// further off it [m]: footholds on the plane of one have to be on that of the other, within the checker's tolerance of
+/// small robots as well.
+constexpr double kApart_m = 0.002, kOff_m = 1e-4;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -107,13 +108,11 @@ struct Piece {
 bool join(Piece& one, const Piece& other) {
   if (one.kind != other.kind || one.kind < 0 || one.box.squaredExteriorDistance(other.box) > kApart_m * kApart_m)
     return false;
-  if (!(one.plane.normal_W().cross(other.plane.normal_W()).norm() < kTilted) ||
-      one.plane.normal_W().dot(other.plane.normal_W()) < 0.0)
-    return false;
+  if (one.plane.normal_W().dot(other.plane.normal_W()) < 0.0) return false;
   Outline beside, all = one.outline;
   for (const Vector2d& vertex : other.outline) {
     const Vector3d place = other.in_space(vertex);
-    if (std::abs(one.plane.height(place)) > kApart_m) return false;
+    if (std::abs(one.plane.height(place)) > kOff_m) return false;
     beside.push_back(one.flat(place));
   }
   const Outline both = common(one.outline, beside);

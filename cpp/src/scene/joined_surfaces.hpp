@@ -14,9 +14,9 @@ struct JoinedSurfaces {
   bool any() const { return scene.surfaces.size() < index.size(); }
 };
 
-/// Join surfaces in one plane that touch or overlap, as long as what comes out is convex: nothing is ground that was
-/// not, but for slits of 2 mm. They have friction, thickness and end-effectors in common; what may be held is left as
-/// it is. The others stay as they are, in order.
+/// Join surfaces in one plane, within 0.1 mm, that touch or overlap, as long as what comes out is convex: nothing is
+/// ground that was not, but for slits of 2 mm. They have friction, thickness and end-effectors in common; what may be
+/// held is left as it is. The others stay as they are, in order.
 JoinedSurfaces join_surfaces(const Scene& given);
 
 }  // namespace mcplan

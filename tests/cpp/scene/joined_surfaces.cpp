@@ -102,8 +102,8 @@ TEST_CASE("steps, slits, slopes, other friction, thickness or end-effectors, and
     return count(made_of({one, other}));
   };
   CHECK(beside([](Surface&) {}) == 1);
-  CHECK(beside([](Surface& s) { s = scenes::rectangle("other", 1, 2, 0, 1, 0.001); }) == 1);
-  CHECK(beside([](Surface& s) { s = scenes::rectangle("other", 1, 2, 0, 1, 0.005); }) == 2);
+  CHECK(beside([](Surface& s) { s = scenes::rectangle("other", 1, 2, 0, 1, 5e-5); }) == 1);
+  CHECK(beside([](Surface& s) { s = scenes::rectangle("other", 1, 2, 0, 1, 0.001); }) == 2);
   CHECK(beside([](Surface& s) { s = scenes::rectangle("other", 1.001, 2, 0, 1, 0); }) == 1);
   CHECK(beside([](Surface& s) { s = scenes::rectangle("other", 1.01, 2, 0, 1, 0); }) == 2);
   CHECK(beside([](Surface& s) { s.vertices_W[1].z() = s.vertices_W[2].z() = 0.05; }) == 2);
