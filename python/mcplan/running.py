@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mcplan._core import Plan, Robot, Scene, Status, join_surfaces
-from mcplan._core.ddp import on_joined_ground
 from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean, shown
+from mcplan.files.whole_ground import on_whole_ground
 from mcplan.kinematics.urdf_model import require_urdf
 from mcplan.online.goals import require_goals
 from mcplan.online.options import OnlineOptions, option_names
@@ -124,11 +124,7 @@ def first_plan(
 
 def _on_whole_ground(begins: Plan | tuple[Scene, Robot]) -> Plan | tuple[Scene, Robot]:
     """The plan, or the scene, on surfaces that are joined; itself where none are to be."""
-    scene = begins.scene if isinstance(begins, Plan) else begins[0]
-    whole = join_surfaces(scene)
-    if len(whole.surfaces) == len(scene.surfaces):
-        return begins
-    return on_joined_ground(begins) if isinstance(begins, Plan) else (whole, begins[1])
+    return on_whole_ground(begins) if isinstance(begins, Plan) else (join_surfaces(begins[0]), begins[1])
 
 
 def names_plan(scene: str | Path) -> bool:

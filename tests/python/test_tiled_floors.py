@@ -114,3 +114,15 @@ def test_a_run_walks_to_a_goal_on_other_tiles() -> None:
     assert not result.measures.fell
     assert result.online.statuses == {"solved": result.online.replans}
     assert len(result.plans[0].plan.scene.surfaces) == 1
+
+
+@pytest.mark.parametrize("robot", ["talos", "g1"])
+def test_what_follows_a_plan_over_tiles_has_them_whole(robot: str) -> None:
+    """A sole whose middle was on a seam pressed on one tile alone: both robots fell at the end of a turn."""
+    pytest.importorskip("mujoco")
+    pytest.importorskip("pinocchio")
+    plan = mp.plan(floor(0.25, (0.0, 0.0), math.pi / 2.0), robot).plan
+    result = mp.track(plan)
+    assert result.followed and result.measures.com_max_m < 0.02
+    assert len(result.recording.plan.scene.surfaces) == len(plan.scene.surfaces)
+    assert robot == "g1" or str(mp.motion(plan).status) == "solved"

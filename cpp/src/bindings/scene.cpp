@@ -54,6 +54,19 @@ void bind_scene(py::module_& m) {
       py::arg("scene"),
       "The scene with surfaces as one that lie in one plane, touch, and make a convex one together; with the name of "
       "the first, which start, goal and steps name then. Raises InvalidScene.");
+  m.def(
+      "whole_outlines",
+      [](const Scene& scene) {
+        const JoinedSurfaces joined = join_surfaces(scene);
+        std::vector<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> out;
+        for (int whole : joined.index) {
+          const std::vector<Eigen::Vector3d>& vertices_W = joined.scene.surfaces[whole].vertices_W;
+          auto& rows = out.emplace_back(static_cast<Eigen::Index>(vertices_W.size()), 3);
+          for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = vertices_W[i];
+        }
+        return out;
+      },
+      py::arg("scene"), "(n, 3) for each surface [m]: the corners of the one that join_surfaces() makes it a part of.");
   c.def("validate", &Scene::validate, "Raise InvalidScene naming all that is out of its range.");
 }
 

@@ -133,6 +133,7 @@ __all__: list[str] = [
     "toml_from",
     "toml_text",
     "wb",
+    "whole_outlines",
 ]
 
 class Status:
@@ -3896,6 +3897,11 @@ def toml_from(content: bytes) -> dict:
 def toml_text(data: typing.Any, header: typing.Any = "") -> typing.Any:
     """
     A mapping as TOML: plain values first, then tables and lists of tables. `header`: a comment to put on top.
+    """
+
+def whole_outlines(scene: Scene) -> list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]]:
+    """
+    (n, 3) for each surface [m]: the corners of the one that join_surfaces() makes it a part of.
     """
 
 __version__: str = "0.1.0"

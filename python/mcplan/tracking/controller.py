@@ -5,8 +5,8 @@
           tau within what motors have at this speed,  f in friction pyramids,
           joint positions and speeds within their limits but for a slack s
 
-Without forces and slack the program has a solution at any state: some acceleration of the base balances any torques.
-Contacts are tasks of great weight and not equations for the same reason.
+Without forces and slack the program has a solution at any state, where some acceleration of the base balances any torques:
+contacts are tasks of great weight and not equations for that reason.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan._core import whole_outlines
 from mcplan.kinematics.rotations import minimal_rotation, polygon_normal, rotation_vector
 from mcplan.kinematics.urdf_model import UrdfModel, leg_velocities
 
@@ -107,13 +108,12 @@ class Controller:
         self.normals = [polygon_normal(np.asarray(s.vertices_W)) for s in scene.surfaces]
         self.pyramids = [pyramid(n, s.friction) for n, s in zip(self.normals, scene.surfaces, strict=True)]
         self.points = [ForcePoints.of(end.half_size) for end in urdf_model.robot.end_effectors]
-        self.flat = [p.count > 1 for p in self.points]
-        self.soles = [corners(end.half_size) for end in urdf_model.robot.end_effectors]
-        self.feet = [end.kind == "foot" for end in urdf_model.robot.end_effectors]
+        self.flat, ends = [p.count > 1 for p in self.points], urdf_model.robot.end_effectors
+        self.soles, self.feet = [corners(end.half_size) for end in ends], [end.kind == "foot" for end in ends]
         self.contacts, self._late = [Contact() for _ in self.points], LateLandings()
         self.qp, self.unknown = QuadraticProgram(), UnknownForces(references.dt_s)
         self.torques = np.zeros(self.nv - 6)
-        self.surfaces = [np.asarray(s.vertices_W, float) for s in scene.surfaces]
+        self.surfaces = whole_outlines(scene)  # soles stand across the seams of tiles
         for end, contact in enumerate(self.contacts):
             if references.surfaces[0, end] >= 0:
                 contact.mode = Mode.CONTACT

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mcplan.errors import InvalidInput, InvalidRobot
 from mcplan.extras import require
 from mcplan.files.robots import list_robots_with
+from mcplan.files.whole_ground import on_whole_ground
 from mcplan.kinematics.inverse_kinematics import Postures, follow, has_sole
 from mcplan.kinematics.samples import Samples, knots_and_between, sample_at
 from mcplan.kinematics.smooth_postures import nearest, smoothed
@@ -69,7 +70,7 @@ def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> F
 
     if not (np.isfinite(payload_kg) and payload_kg >= 0.0):
         raise InvalidInput("payload_kg", "must be 0 or more", str(payload_kg))
-    plan.validate()
+    plan = on_whole_ground(plan)
     robot = plan.robot if robot is None else robot
     require("telling whether a robot can follow a plan", "view", "pinocchio", "scipy")
     urdf_model = load_model(robot)

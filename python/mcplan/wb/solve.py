@@ -20,6 +20,7 @@ from mcplan.arguments import require_names, require_number, require_or_path
 from mcplan.errors import Interrupted, InvalidOptions, InvalidPlan, shown
 from mcplan.extras import require
 from mcplan.files.plans import load_plan
+from mcplan.files.whole_ground import on_whole_ground
 
 from . import start as starts
 from .between_nodes import balanced, with_forces, with_model
@@ -76,7 +77,7 @@ def motion(
 ) -> MotionResult:
     """See mcplan.motion."""
     began = time.perf_counter()
-    plan = _plan_of(plan)
+    plan = on_whole_ground(_plan_of(plan))
     _require_options(joints, node_s, max_iterations, time_limit_s, start, tolerances)
     require("mcplan.motion", "view", "pinocchio", "scipy")
 
