@@ -15,7 +15,7 @@ template <class Limit>
 void offer_place(const Problem& problem, Limit distance, Limit beyond, int surface, const Vector3d& position,
                  const Place& place, Findings& findings) {
   findings.offer(distance, std::abs(problem.solids[surface].polygon.height(position)), place);
-  findings.offer(beyond, beyond_ground(problem, surface, place.end_effector, position), place);
+  findings.offer(beyond, beyond_ground(problem, surface, place.end_effector, position, beside_named_m), place);
 }
 
 bool has_own_yaw(const Problem& problem, int phase) { return !problem.plan.knots[phase].end_effector_yaw.empty(); }
@@ -41,10 +41,11 @@ double beyond_polygon(const Polygon& polygon, const Vector3d& position) {
   return (projected - polygon.nearest(projected)).norm();
 }
 
-double beyond_ground(const Problem& problem, int surface, int l, const Vector3d& position) {
+double beyond_ground(const Problem& problem, int surface, int l, const Vector3d& position, double within) {
   constexpr double kLevel_m = 0.002, kTilted = 0.01;
   const Polygon& own = problem.solids[surface].polygon;
   double beyond = beyond_polygon(own, position);
+  if (beyond > within) return beyond;
   for (std::size_t i = 0; i < problem.solids.size() && beyond > 0.0; ++i) {
     const Surface& other = problem.scene.surfaces[i];
     const Polygon& polygon = problem.solids[i].polygon;

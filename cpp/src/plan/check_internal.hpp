@@ -281,8 +281,12 @@ double beyond_sole(const Eigen::Vector2d& half_size, const Eigen::Vector3d& norm
 double beyond_polygon(const Polygon& polygon, const Eigen::Vector3d& position_W);
 
 /// The same of a surface and those beside it that go on in its plane, on which a sole that stands on it may press, too:
-/// with the same friction or more, for this end-effector. What lies on or about it does not.
-double beyond_ground(const Problem& problem, int surface, int l, const Eigen::Vector3d& position_W);
+/// with the same friction or more, for this end-effector. What lies on or about it does not, nor does what is further
+/// than `within` [m] from the surface that is named: a foot is not on one while it stands on another.
+double beyond_ground(const Problem& problem, int surface, int l, const Eigen::Vector3d& position_W, double within);
+
+/// How far an end-effector may be beside the surface that its contact names [m], on ground that goes on there.
+constexpr double beside_named_m = 0.021;
 
 /// An end-effector at an instant of a phase.
 struct Seen {

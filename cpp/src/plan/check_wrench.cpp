@@ -158,7 +158,10 @@ void check_center_of_pressure(const Problem& problem, const Sample& sample, Find
                                sole_yaw(problem, sample, l), center - sample.at.end_effectors[l].position_W),
                    place);
     findings.offer(Constraint::center_of_pressure, std::abs(polygon.height(center)), place);
-    findings.offer(Constraint::center_of_pressure, beyond_ground(problem, surface, l, center), place);
+    findings.offer(
+        Constraint::center_of_pressure,
+        beyond_ground(problem, surface, l, center, beside_named_m + problem.robot.end_effectors[l].half_size.norm()),
+        place);
   }
 }
 
