@@ -1,12 +1,15 @@
-"""mp.check: the checker of the library, whose refusal of an argument names it."""
+"""mp.check: the checker of the library, of plans at hand or in files, whose refusal of an argument names it."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from mcplan import _core
 from mcplan._core import CheckResult, Plan, PlanarPlan, PlanarTolerances, Robot, Scene, Tolerances
-from mcplan.arguments import require, titled
+from mcplan.arguments import require, require_or_path, titled
 from mcplan.errors import InvalidArgument
 from mcplan.files.meeting import warn_of_names
 
@@ -15,20 +18,22 @@ if TYPE_CHECKING:
 
 _TAKES: dict[type, dict[str, tuple[type, ...]]] = {
     Plan: {
-        "scene": (Scene, type(None)),
-        "robot": (Robot, type(None)),
+        "scene": (Scene,),
+        "robot": (Robot,),
         "tolerances": (Tolerances,),
         "until_s": (float, int),
     },
     PlanarPlan: {"tolerances": (PlanarTolerances,), "self_collision": (bool,)},
 }
+#: Arguments that may be names or paths as well, or None.
+_READ: dict[str, type] = {"scene": Scene, "robot": Robot}
 
 
 @overload
 def check(
-    plan: Plan,
-    scene: Scene | None = None,
-    robot: Robot | None = None,
+    plan: Plan | str | Path,
+    scene: Scene | str | Path | None = None,
+    robot: Robot | str | Path | None = None,
     tolerances: Tolerances = ...,
     until_s: float = ...,
 ) -> CheckResult: ...
@@ -40,10 +45,12 @@ def check(plan: Any, *given: Any, **named: Any) -> Any:
     """Check a plan from its positions, forces and polygons alone, a whole-body plan and a motion from their splines.
 
         mp.check(result.plan, scene, robot).raise_if_violated()
+        mp.check("plan.npz", "flat")
 
     Args:
-        plan: The plan, or the motion.
-        scene: What it is checked against; None: the plan's own. A whole-body plan and a motion take no scene and no robot.
+        plan: The plan, or the motion, or the path of either.
+        scene: What it is checked against, or what load_scene takes; None: the plan's own. A whole-body plan and a motion take
+            no scene and no robot.
         robot: As `scene`.
         tolerances: Accepted amounts beyond the limits: ``Tolerances``, ``PlanarTolerances`` of a whole-body plan, or
             ``wb.MotionTolerances`` of a motion.
@@ -55,18 +62,27 @@ def check(plan: Any, *given: Any, **named: Any) -> Any:
 
     Raises:
         InvalidArgument: An argument is of another type, such as the result that has the plan.
-        InvalidPlan: The arrays of the plan do not fit together.
+        InvalidPlan: The arrays of the plan do not fit together, or the file is no plan.
         InvalidOptions: A tolerance is no number, or until_s not above zero.
         InvalidScene, InvalidRobot, InvalidPlanarTask: What it is checked against is malformed.
+        UnknownName: No such scene or robot, and no such file.
+        FileNotFoundError: There is no such plan.
         Interrupted: Ctrl-C, with what was found by then.
     """
+    if isinstance(plan, str | os.PathLike):
+        from mcplan.wb.loading import load_any
+
+        plan = load_any(Path(plan))
     if not isinstance(plan, Plan | PlanarPlan):
         from mcplan.wb import Motion, MotionTolerances
         from mcplan.wb.certificate import certify
 
-        require("plan", plan, Plan, PlanarPlan, Motion)
+        if not isinstance(plan, Motion):
+            require_or_path("plan", plan, "a Plan", "a PlanarPlan", "a Motion")
         require("tolerances", (tolerances := _only_tolerances(given, named)), MotionTolerances, optional=True)
         return certify(plan, tolerances)
+    if isinstance(plan, Plan):
+        given, named = _with_files_read(given, named)
     try:
         found = _core.check(plan, *given, **named)
     except TypeError:  # only now is it worth a look which argument it was
@@ -78,6 +94,26 @@ def check(plan: Any, *given: Any, **named: Any) -> Any:
         )
         warn_of_names(scene or plan.scene, robot or plan.robot)
     return found
+
+
+def _with_files_read(given: tuple[Any, ...], named: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """The arguments with a scene and a robot where names or paths of them were given."""
+    if not any(isinstance(value, str | os.PathLike) for value in (*given, *named.values())):
+        return given, named
+    from mcplan.files.robots import load_robot
+    from mcplan.files.scenes import load_scene
+
+    loads: dict[str, Callable[[str | Path], Any]] = {"scene": load_scene, "robot": load_robot}
+
+    def read(name: str, value: Any) -> Any:
+        if name not in loads or not isinstance(value, str | os.PathLike):
+            return value
+        return loads[name](value if isinstance(value, str) else Path(value))
+
+    names = [*_TAKES[Plan], *[""] * len(given)]
+    return tuple(read(name, value) for name, value in zip(names, given, strict=False)), {
+        name: read(name, value) for name, value in named.items()
+    }
 
 
 def _only_tolerances(given: tuple[Any, ...], named: dict[str, Any]) -> Any:
@@ -96,12 +132,13 @@ def _only_tolerances(given: tuple[Any, ...], named: dict[str, Any]) -> Any:
 
 def _require_taken(plan: Any, given: tuple[Any, ...], named: dict[str, Any]) -> None:
     """Raises InvalidArgument for the first argument of another type, and for one that only the other kind of plan takes."""
-    require("plan", plan, Plan, PlanarPlan)
     kind = Plan if isinstance(plan, Plan) else PlanarPlan
     takes, others = _TAKES[kind], {name for legal in _TAKES.values() for name in legal}
     for name, value in [*zip(takes, given, strict=False), *named.items()]:
         if name in takes:
-            kinds = [each for each in takes[name] if each is not type(None)]
-            require(name, value, *kinds, optional=type(None) in takes[name])
+            if name in _READ and not isinstance(value, _READ[name]):
+                require_or_path(name, value, titled(_READ[name]), "a name", optional=True)
+            elif name not in _READ:
+                require(name, value, *takes[name])
         elif name in others:
             raise InvalidArgument(name, f"must not be given with {titled(kind)}, which takes {' and '.join(takes)}")

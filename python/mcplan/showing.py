@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from mcplan._core import Plan, PlanarPlan, Report, Robot, Scene
-from mcplan.arguments import require
+from mcplan.arguments import require, require_or_path
 from mcplan.errors import InvalidInput, shown
 
 if TYPE_CHECKING:
@@ -60,33 +60,38 @@ def load(path: str | Path) -> Plan | PlanarPlan | Motion | TrackingResult | Plan
     return saved
 
 
-def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+def show(
+    plan: Shown | str | Path,
+    scene: Scene | str | Path | None = None,
+    robot: Robot | str | Path | None = None,
+    report: Report | None = None,
+) -> Page:
     """Draw a plan, a motion or a run in the browser; the result has ``save_html(path)``.
 
     Args:
-        plan: The plan, a motion, or what track() found of a plan. A whole-body plan is drawn with its own task, a motion
-            and a run with their own plan; they take no scene and no robot.
-        scene: Drawn around it; None: the plan's own.
-        robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
+        plan: The plan, a motion, what track() found of a plan, or the path of any of them. A whole-body plan is drawn with
+            its own task, a motion and a run with their own plan; they take no scene and no robot.
+        scene: Drawn around it, or what load_scene takes; None: the plan's own.
+        robot: Drawn along it, or what load_robot takes; None: the plan's own. With a URDF its meshes are drawn, else a
+            stick robot.
         report: How the plan was found, for the caption.
 
     Raises:
         InvalidArgument: An argument is of another type, such as the result that has the plan.
-        InvalidInput: A scene or a robot for a whole-body plan, a motion or a run.
+        InvalidInput: A scene or a robot for a whole-body plan, a motion or a run; or the file is none of them.
+        UnknownName: No such scene or robot, and no such file.
+        FileNotFoundError: There is no such plan.
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
     """
     from mcplan.extras import require as require_extra
 
     require_extra("mcplan.show", "view", "meshcat")
+    plan, scene, robot = _with_files_read(plan, scene, robot)
     if is_motion(plan):
         _require_own("a motion is drawn with its own plan", scene=scene, robot=robot)
         from mcplan.view.pages.show_motion import show_motion
 
         return show_motion(plan)
-    if not is_run(plan):
-        require("plan", plan, Plan, PlanarPlan, _motion_kind())
-    require("scene", scene, Scene, optional=True)
-    require("robot", robot, Robot, optional=True)
     require("report", report, Report, optional=True)
     if isinstance(plan, PlanarPlan):
         _require_own("a whole-body plan is drawn with its own task", scene=scene, robot=robot)
@@ -108,6 +113,29 @@ def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, re
     if scene is not None or robot is not None:
         warn_of_names(scene or plan.scene, robot or plan.robot)
     return show_plan(plan, scene, robot, report)
+
+
+def _with_files_read(
+    plan: Shown | str | Path, scene: Scene | str | Path | None, robot: Robot | str | Path | None
+) -> tuple[Shown, Scene | None, Robot | None]:
+    """What is to be shown, read where it is given by names or paths.
+
+    Raises:
+        InvalidArgument: One of them is of another type.
+    """
+    from mcplan.files.robots import load_robot
+    from mcplan.files.scenes import load_scene
+
+    if not isinstance(plan, Plan | PlanarPlan) and not is_motion(plan) and not is_run(plan):
+        require_or_path("plan", plan, "a Plan", "a PlanarPlan", "a Motion", "a run")
+        plan = load(plan)
+    if not isinstance(scene, Scene):
+        require_or_path("scene", scene, "a Scene", "a name", optional=True)
+        scene = None if scene is None else load_scene(scene)
+    if not isinstance(robot, Robot):
+        require_or_path("robot", robot, "a Robot", "a name", optional=True)
+        robot = None if robot is None else load_robot(robot)
+    return plan, scene, robot
 
 
 def save_plots(what: Shown, report: Report | None, folder: str | Path) -> list[Path]:

@@ -22,9 +22,9 @@ def result() -> mp.ddp.Result:
 
 
 WRONG: list[tuple[str, Callable[[Any], Any]]] = [
-    (f"plan: must be a Plan, a PlanarPlan or a Motion, {RESULT_TEXT}", lambda r: mp.check(r)),
-    ('scene: must be a Scene or None, got "flat"', lambda r: mp.check(r.plan, "flat")),
-    ("robot: must be a Robot or None, got a Scene", lambda r: mp.check(r.plan, robot=r.plan.scene)),
+    (f"plan: must be a Plan, a PlanarPlan, a Motion or a path, {RESULT_TEXT}", lambda r: mp.check(r)),
+    ("scene: must be a Scene, a name, a path or None, got 3", lambda r: mp.check(r.plan, 3)),
+    ("robot: must be a Robot, a name, a path or None, got a Scene", lambda r: mp.check(r.plan, robot=r.plan.scene)),
     ("tolerances: must be a Tolerances, got 0.1", lambda r: mp.check(r.plan, None, None, 0.1)),
     ("scene: must be a Scene, a name or a path, got 3", lambda r: mp.plan(3, r.plan.robot)),
     ("robot: must be a Robot, a name or a path, got a Scene", lambda r: mp.plan("flat", r.plan.scene)),
@@ -46,7 +46,7 @@ WRONG: list[tuple[str, Callable[[Any], Any]]] = [
     ("minimise: must be one of torque, time, none, got []", lambda r: mp.whole_body("chimney", minimise=[])),
     ("dynamics: must be of type bool, got array", lambda r: mp.whole_body("chimney", dynamics=np.zeros(2))),
     ("certify: must be a bool, got an ndarray", lambda r: mp.whole_body("chimney", certify=np.zeros(2))),
-    (f"plan: must be a Plan, a PlanarPlan or a Motion, {RESULT_TEXT}", lambda r: mp.show(r)),
+    (f"plan: must be a Plan, a PlanarPlan, a Motion, a run or a path, {RESULT_TEXT}", lambda r: mp.show(r)),
     ("joints: must be a string or a list of strings, got an ndarray", lambda r: mp.motion(r.plan, joints=np.zeros(2))),
     ("joints: must be a string or a list of strings, got a list", lambda r: mp.motion(r.plan, joints=[3])),
     ("start: must be one of follow, stand, got array", lambda r: mp.motion(r.plan, start=np.zeros(2))),
@@ -59,6 +59,18 @@ WRONG: list[tuple[str, Callable[[Any], Any]]] = [
     ("source: must be a name or a path, got b'climber9'", lambda r: mp.load_planar_robot(b"climber9")),
     ("source: must be a name or a path, got a list", lambda r: mp.load_planar_task([])),
 ]
+
+
+def test_check_takes_files_and_names_as_the_command_does(result, tmp_path):
+    result.plan.save(str(tmp_path / "plan.npz"))
+    at_hand = mp.check(result.plan, mp.load_scene("stairs"), mp.load_robot("humanoid44"))
+    in_files = mp.check(tmp_path / "plan.npz", "stairs", robot="humanoid44")
+    assert [str(v) for v in in_files.violations()] == [str(v) for v in at_hand.violations()]
+    assert not in_files.ok() and mp.check(str(tmp_path / "plan.npz")).ok() == mp.check(result.plan).ok()
+    with pytest.raises(FileNotFoundError):
+        mp.check(tmp_path / "none.npz")
+    with pytest.raises(mp.UnknownName, match="no scene 'flatt' and no file of that name"):
+        mp.check(result.plan, "flatt")
 
 
 def test_check_takes_of_each_kind_of_plan_what_goes_with_it(result):

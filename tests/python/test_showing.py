@@ -34,6 +34,7 @@ def test_both_kinds_of_plan_answer_alike(plan, tmp_path):
     again = showing.load(tmp_path / "plan.npz")
     assert type(again) is type(plan) and again.duration() == plan.duration()
     assert mp.check(again).ok() == mp.check(plan).ok()
+    assert mp.show(tmp_path / "plan.npz").html() == mp.show(plan).html()
     assert not showing.is_run(plan)
     methods = [name for name, _ in inspect.getmembers(showing.AnyPlan, inspect.isfunction) if name[0] != "_"]
     assert sorted(methods) == ["at", "duration", "save"]

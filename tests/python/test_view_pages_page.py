@@ -136,13 +136,13 @@ def test_what_is_no_plan_is_named(plan):
     scene, robot = by_hand.stairs(), by_hand.humanoid()
     with pytest.raises(
         mp.errors.InvalidArgument,
-        match=r"plan: must be a Plan, a PlanarPlan or a Motion, got a SimpleNamespace; its plan is result\.plan",
+        match=r"plan: must be a Plan, a PlanarPlan, a Motion, a run or a path, got a SimpleNamespace; its plan is result\.plan",
     ):
         mp.show(SimpleNamespace(plan=plan), scene, robot)
-    with pytest.raises(mp.errors.InvalidArgument, match="scene: must be a Scene or None, got a Robot"):
+    with pytest.raises(mp.errors.InvalidArgument, match="scene: must be a Scene, a name, a path or None, got a Robot"):
         mp.show(plan, robot, scene)
-    with pytest.raises(mp.errors.InvalidArgument, match='robot: must be a Robot or None, got "humanoid44"'):
-        mp.show(plan, scene, "humanoid44")
+    with pytest.raises(mp.errors.InvalidArgument, match="robot: must be a Robot, a name, a path or None, got 44"):
+        mp.show(plan, scene, 44)
 
 
 @pytest.mark.parametrize(("height", "length"), [(0.005, "1 mm"), (0.7, "10 cm"), (20.0, "10 m")])
