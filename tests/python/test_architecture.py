@@ -47,7 +47,7 @@ PUBLIC = {
     "planar": "checker force_laws plan plan_files robot robot_files task task_files",
     "planar/sip": "certificate options plan planner",
     "wb": "problem solver",
-    "online": "felt_push following planned_height planner",
+    "online": "felt_push following planned_height planned_turn planner",
 }
 #: Sources that know a parser: nobody else includes one, and no public header.
 PARSERS = {"toml++": "model/toml.cpp", "nlohmann": "model/json.cpp"}

@@ -111,6 +111,19 @@ def test_a_robot_that_hangs_a_little_lower_than_planned_goes_on_from_the_planned
     np.testing.assert_array_equal(begins[1].com_W, measured.knot.com_W)
 
 
+def test_what_a_landing_turns_the_base_by_is_not_in_the_next_plan(plan):
+    exact, measured = state(plan, 1.0), state(plan, 1.0)
+    measured.knot.base_rpy_rate = measured.knot.base_rpy_rate + [0.2, 0.0, -0.1]
+    measured.knot.angular_momentum_W = np.zeros(3)  # made from the rates
+    begins = []
+    for margin_rad_s in (0.3, 0.0):
+        with Planner(plan, turn_margin_rad_s=margin_rad_s) as planner:
+            planner.submit(measured)
+            begins.append(planner.wait().plan.knots[0])
+    np.testing.assert_allclose(begins[0].base_rpy_rate, exact.knot.base_rpy_rate, atol=0.01)
+    np.testing.assert_allclose(begins[1].base_rpy_rate, measured.knot.base_rpy_rate, atol=0.01)
+
+
 @pytest.mark.parametrize(
     ("outcomes", "chosen"),
     [
@@ -439,6 +452,8 @@ def test_what_would_never_come_to_pass_is_refused(named, says):
         ({"latensy": 3.0}, "latensy: no such option"),
         ({"start_slack_s": -1.0}, "start_slack_s"),
         ({"height_margin_m": -0.1}, "height_margin_m: must be 0 at least"),
+        ({"turn_margin_rad_s": -0.1}, "turn_margin_rad_s: must be 0 at least"),
+        ({"turn_margin_rad_s": "a"}, "turn_margin_rad_s: must be a number"),
         ({"height_margin_m": float("nan")}, "height_margin_m: must be 0 at least"),
         ({"height_margin_m": "a"}, "height_margin_m: must be a number"),
     ],

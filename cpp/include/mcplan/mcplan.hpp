@@ -20,6 +20,7 @@
 #include "mcplan/online/felt_push.hpp"
 #include "mcplan/online/following.hpp"
 #include "mcplan/online/planned_height.hpp"
+#include "mcplan/online/planned_turn.hpp"
 #include "mcplan/online/planner.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/force_laws.hpp"

@@ -1,6 +1,7 @@
 #include "fields.hpp"
 #include "mcplan/online/following.hpp"
 #include "mcplan/online/planned_height.hpp"
+#include "mcplan/online/planned_turn.hpp"
 #include "online/felt_push_fields.hpp"
 
 namespace mcplan::bindings {
@@ -8,6 +9,7 @@ namespace mcplan::bindings {
 void bind_online(py::module_& parent) {
   py::module_ m = parent.def_submodule("online", "Planning while the robot walks: what to do with a replan's plan.");
   m.attr("HEIGHT_MARGIN_M") = online::kHeightMargin_m;
+  m.attr("TURN_MARGIN_RAD_S") = online::kTurnMargin_rad_s;
   m.def("follows", &online::follows, py::arg("report"), py::arg("period_s"),
         "Whether it is better to follow the plan of a replan than to stay with the plan under way: it was made from "
         "the measured state, and it is solved, acceptable, or keeps all limits for twice the time [s] between two "
@@ -22,6 +24,11 @@ void bind_online(py::module_& parent) {
         py::arg("margin_m") = online::kHeightMargin_m,
         "The state from which to plan on at time t [s] in the plan under way: the measured one, but with height and "
         "vertical velocity of the CoM as planned where they are off by less than a margin [m].");
+  m.def(
+      "with_planned_turn", &online::with_planned_turn, py::arg("measured"), py::arg("plan"), py::arg("t"),
+      py::arg("margin_rad_s") = online::kTurnMargin_rad_s,
+      "The state from which to plan on at time t [s] in the plan under way: the measured one, but what the base turns "
+      "otherwise than planned is less by a margin [rad/s], or nothing, and its angular momentum with it.");
   bind_fields<online::FeltPush>(m);
   m.def(
       "com_shift_W", &online::com_shift_W, py::arg("push"), py::arg("com_height"), py::arg("gravity"),

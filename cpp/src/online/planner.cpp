@@ -46,6 +46,8 @@ PlanResult first_usable(const Question& question, const Eigen::Vector3d& shift_W
   measured.state.com_W += shift_W;
   measured.state =
       with_planned_height(std::move(measured.state), *question.plan, t_now, question.options.height_margin_m);
+  measured.state =
+      with_planned_turn(std::move(measured.state), *question.plan, t_now, question.options.turn_margin_rad_s);
   std::optional<PlanResult> found;
   ddp::ReplanOptions options = question.options.replan;
   options.previous_accepted = question.accepted;
@@ -93,6 +95,8 @@ void PlannerOptions::validate() const {
     throw InvalidOptions("period_s", "must be positive", std::to_string(period_s));
   if (!(height_margin_m >= 0.0))
     throw InvalidOptions("height_margin_m", "must be 0 at least", std::to_string(height_margin_m));
+  if (!(turn_margin_rad_s >= 0.0))
+    throw InvalidOptions("turn_margin_rad_s", "must be 0 at least", std::to_string(turn_margin_rad_s));
 }
 
 struct Planner::Work {

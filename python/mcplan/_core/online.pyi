@@ -12,10 +12,12 @@ __all__: list[str] = [
     "FeltPush",
     "HEIGHT_MARGIN_M",
     "PushObserver",
+    "TURN_MARGIN_RAD_S",
     "com_shift_W",
     "follows",
     "with_feet_kept_up",
     "with_planned_height",
+    "with_planned_turn",
 ]
 
 class FeltPush:
@@ -100,4 +102,15 @@ def with_planned_height(
     The state from which to plan on at time t [s] in the plan under way: the measured one, but with height and vertical velocity of the CoM as planned where they are off by less than a margin [m].
     """
 
+def with_planned_turn(
+    measured: mcplan._core.Knot,
+    plan: mcplan._core.Plan,
+    t: typing.SupportsFloat | typing.SupportsIndex,
+    margin_rad_s: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+) -> mcplan._core.Knot:
+    """
+    The state from which to plan on at time t [s] in the plan under way: the measured one, but what the base turns otherwise than planned is less by a margin [rad/s], or nothing, and its angular momentum with it.
+    """
+
 HEIGHT_MARGIN_M: float = 0.03
+TURN_MARGIN_RAD_S: float = 0.3

@@ -18,11 +18,13 @@ import numpy as np
 from mcplan._core import Knot, Plan, PlanFrom, Status
 from mcplan._core.online import (
     HEIGHT_MARGIN_M,
+    TURN_MARGIN_RAD_S,
     FeltPush,
     com_shift_W,
     follows,
     with_feet_kept_up,
     with_planned_height,
+    with_planned_turn,
 )
 from mcplan.arguments import require, require_number
 from mcplan.errors import InvalidInput, InvalidOptions, shown
@@ -117,7 +119,9 @@ class Planner:
             controller holds it with a small error, a robot with a payload for example hangs lower, and plan after plan
             that begins there sinks. 0: as measured.
         **named: Options of mcplan.replan by name, among them ``time_limit`` [s]. ``recovery_first`` is on here;
-            ``previous_accepted`` is about ``plan`` alone, what is taken over says by its status whether it was accepted.
+            ``previous_accepted`` is about ``plan`` alone, what is taken over says by its status whether it was accepted. And
+            ``turn_margin_rad_s``: what the base turns otherwise than planned counts in new plans less this [rad/s], or not at
+            all, since a controller turns back what a landing or a swing does to it. 0: as measured.
 
     Attributes:
         command: May be changed at any time; it holds for what is computed from then on.
@@ -148,11 +152,15 @@ class Planner:
             raise InvalidOptions("period_s", "must be positive", shown(period_s))
         if not require_number("height_margin_m", height_margin_m) >= 0.0:
             raise InvalidOptions("height_margin_m", "must be 0 at least", shown(height_margin_m))
+        turn_margin_rad_s = named.pop("turn_margin_rad_s", TURN_MARGIN_RAD_S)
+        if not require_number("turn_margin_rad_s", turn_margin_rad_s) >= 0.0:
+            raise InvalidOptions("turn_margin_rad_s", "must be 0 at least", shown(turn_margin_rad_s))
         command_of(command)
         replan_options(named)
         # One object, as all of it changes at once beside the thread.
         self._under_way: UnderWay = plan, float(begins_s), bool(named.get("previous_accepted", False))
-        self.command, self.period_s, self._height_margin_m = command, period_s, float(height_margin_m)
+        self.command, self.period_s = command, period_s
+        self._height_margin_m, self._turn_margin_rad_s = float(height_margin_m), float(turn_margin_rad_s)
         self.scene: Scene | None = None
         self.robots: list[Robot] = [plan.robot]
         self._named: Mapping[str, Any] = named
@@ -252,6 +260,7 @@ class Planner:
             t = min(max(t_now, 0.0), float(plan.duration()))
             knot, shift_W = self._beside(state, plan)
             knot = with_planned_height(knot, plan, t_now, self._height_margin_m)
+            knot = with_planned_turn(knot, plan, t_now, self._turn_margin_rad_s)
             for i, robot in enumerate(self.robots):
                 # While it is pushed, every new plan takes the push for over. Robots after the first are for emergencies.
                 told = {"recovery_first": True, "crossing": i > 0, **named, "previous_accepted": accepted}

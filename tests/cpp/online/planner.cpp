@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 #include <thread>
 
@@ -97,6 +98,24 @@ TEST_CASE("a robot that is off the planned height by little goes on from it, but
     const Eigen::Vector3d begin_W = update->result->plan.knots.front().com_velocity_W;
     const Eigen::Vector3d off_W = begin_W - walk().at(1.0).com_velocity_W;
     CHECK(off_W.norm() == doctest::Approx(margin > 0.0 ? 0.0 : 0.05));
+  }
+}
+
+TEST_CASE("what a landing turns the base by is not in the plan, but for a margin of zero") {
+  MeasuredState measured = state(walk(), 1.0, 1.0);
+  measured.measured.state.base_rpy_rate.x() += 0.2;
+  measured.measured.state.angular_momentum_W.setZero();  // made from the rates
+  PlannerOptions options;
+  for (const double margin : {0.3, 0.0}) {
+    options.turn_margin_rad_s = margin;
+    Planner planner(walk(), 0.0, options);
+    planner.submit(measured);
+    const std::optional<Update> update = planner.wait();
+    REQUIRE(update);
+    REQUIRE(update->result);
+    const Eigen::Vector3d begin = update->result->plan.knots.front().base_rpy_rate;
+    const double off_rad_s = (begin - walk().at(1.0).base_rpy_rate).norm();
+    CHECK(std::abs(off_rad_s - (margin > 0.0 ? 0.0 : 0.2)) < 1e-3);
   }
 }
 
@@ -228,6 +247,9 @@ TEST_CASE("options of a planner are refused by name") {
   options = {};
   options.height_margin_m = -0.01;
   CHECK_THROWS_WITH_AS(Planner(walk(), 0.0, options), doctest::Contains("height_margin_m"), InvalidOptions);
+  options = {};
+  options.turn_margin_rad_s = NAN;
+  CHECK_THROWS_WITH_AS(Planner(walk(), 0.0, options), doctest::Contains("turn_margin_rad_s"), InvalidOptions);
   options = {};
   options.replan.horizon = -1;
   CHECK_THROWS_WITH_AS(Planner(walk(), 0.0, options), doctest::Contains("horizon"), InvalidOptions);

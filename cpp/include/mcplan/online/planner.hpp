@@ -10,6 +10,7 @@
 #include "mcplan/ddp/replan.hpp"
 #include "mcplan/online/felt_push.hpp"
 #include "mcplan/online/planned_height.hpp"
+#include "mcplan/online/planned_turn.hpp"
 
 namespace mcplan::online {
 
@@ -49,6 +50,7 @@ struct PlannerOptions {
                                                       ///< previous_accepted for the first plan
   double period_s = 0.1;                              ///< how often states are submitted
   double height_margin_m = kHeightMargin_m;           ///< up to which plans begin at the planned height, 0: as measured
+  double turn_margin_rad_s = kTurnMargin_rad_s;       ///< of what the base turns otherwise than planned, left out
 
   /// Throws InvalidOptions naming all that is out of its range.
   void validate() const;

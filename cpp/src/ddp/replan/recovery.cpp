@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -16,13 +17,15 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Feet = std::array<int, 2>;
 
-/// Phases may be shorter than the robot's shortest by this ratio; swings and stances between them are guessed so long
-/// [s], a swing under way at least so long; there are so many steps, and phases at the end in which the robot stands.
-/// Chosen.
-constexpr double kShorter = 0.5, kSwing_s = 0.35, kBetween_s = 0.12, kSwingLeft_s = 0.1;
+/// Swings and stances between them are guessed so long [s], a swing under way at least so long; there are so many
+/// steps, and phases at the end in which the robot stands. Chosen.
+constexpr double kSwing_s = 0.35, kBetween_s = 0.12, kSwingLeft_s = 0.1;
 /// What is left of a swing lasts at least as long as the foot takes to come down at this speed, and it gets no farther
 /// than at this one [m/s]. Chosen.
 constexpr double kDescent = 0.4, kSwingSpeed = 1.5;
+/// A foot whose landing is due before it gets to the capture point is also tried to land there, if that takes longer by
+/// at least so much [s]; times are looked at in steps of so much [s]. Chosen.
+constexpr double kLonger_s = 0.05, kLookEvery_s = 0.02;
 constexpr int kSteps = 3, kStands = 2;
 /// Ratio of a sole in which the centre of pressure is guessed. Chosen.
 constexpr double kInside = 0.8;
@@ -89,7 +92,7 @@ class Steps {
                  std::sqrt(now.scene->gravity / robot.com_height)};
     rest_.keep_first();
     rest_.free_end = true;
-    rest_.shortest_s = kShorter * phase_duration_of(robot, now.similarity)[0];
+    rest_.shortest_s = kQuicker * phase_duration_of(robot, now.similarity)[0];
     rest_.plan.final_contacts = rest.contacts(0);
     Knot& end = rest_.plan.knots.back() = start;
     end.base_rpy_rate.setZero();
@@ -162,6 +165,21 @@ class Steps {
       knot.com_velocity_W.setZero();
     }
     return std::move(rest_);
+  }
+
+  /// From a least time up to a longest one [s], that in which the foot in the air gets to where the capture point is by
+  /// then.
+  double time_to_capture(int foot, double least_s, double longest_s) const {
+    const Vector3d from_W = rest_.plan.knots.back().end_effectors_W[foot];
+    double time_s = least_s;
+    for (; time_s < longest_s; time_s += kLookEvery_s * now_->similarity.time) {
+      Steps then = *this;
+      then.wait(time_s);
+      const Found ground = then.place(foot, from_W, std::numeric_limits<double>::infinity());
+      const double way_m = (ground.place_W - from_W).head<2>().norm();
+      if (way_m <= kSwingSpeed * now_->similarity.velocity() * time_s) break;
+    }
+    return std::min(time_s, longest_s);
   }
 
   /// How far the capture point is beyond a foot on its outer side [m].
@@ -304,6 +322,9 @@ std::vector<Recovery> recoveries(const Rest& rest, const Now& now) {
   const double left_s = std::clamp(rest.plan.phases.front().duration, least_s, kSwing_s * time);
   const Steps begun(rest, now, robot, *feet);
   add(steps(begun, foot, other, left_s, Across::no, now.similarity), robot);
+  // Once: put off by every replan the foot would never land.
+  const double there_s = rest.quick ? left_s : begun.time_to_capture(foot, left_s, kSwing_s * time);
+  if (there_s > left_s + kLonger_s * time) add(steps(begun, foot, other, there_s, Across::no, now.similarity), robot);
   const bool soles = std::min(now.robot->end_effectors[foot].half_size.minCoeff(),
                               now.robot->end_effectors[other].half_size.minCoeff()) > 0.0;
   if (now.options->crossing && soles && begun.beyond(other) > 0.0) {

@@ -73,12 +73,18 @@ bool stays_upright(const Plan& plan, const Robot& robot, const Similarity& simil
 
 bool is_pushed(const Now& now) { return now.pushed_W.norm() > kPush_m_s * now.similarity.velocity(); }
 
-/// Steps that catch a push, where the robot is pushed and what has been found does not do, or drops it though the plan
-/// under way did not.
+/// Steps that catch a push, where the robot is pushed or such steps are under way, and what has been found does not do,
+/// or drops it though the plan under way did not. Steps under way are first gone on with as quickly as they were
+/// planned.
 void recover_if_pushed(const Rest& rest, const Now& now, Trials& trials) {
-  if (!is_pushed(now)) return;
+  if (!is_pushed(now) && !rest.quick) return;
+  if (rest.quick && !trials.solved()) {
+    Rest as_quick = rest;
+    as_quick.shortest_s = kQuicker * phase_duration_of(*now.robot, now.similarity)[0];
+    trials.make(now, as_quick, PlanFrom::same_sequence, true);
+  }
   const bool dropped = trials.solved() && !stays_upright(trials.best()->plan, *now.robot, now.similarity) &&
-                       stays_upright(rest.plan, *now.robot, now.similarity);
+                       (rest.quick || stays_upright(rest.plan, *now.robot, now.similarity));
   if (!trials.solved() || dropped) recover(rest, now, trials);
 }
 
@@ -261,8 +267,10 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
       follow_command(rest, now, trials);
     else
       go_to_goal(rest, previous, now, trials);
-    if (options.other_sequences && options.max_work > 0) {
-      if (!trials.usable()) recover(begun, now, trials);
+    // What misses a limit by little before long is followed all the same, unless that is what a push has come to.
+    const bool leads_on = trials.usable() || (trials.acceptable() && !is_pushed(now));
+    if (!leads_on && options.other_sequences && options.max_work > 0) {
+      recover(begun, now, trials);
       stop(begun, now, trials);
     }
     trials.take_spare();

@@ -11,6 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Ratio of the robot's shortest phase below which phases count as quick. Chosen: durations are exact to rounding.
+constexpr double kUsual = 0.99;
+
 /// The state of a plan at an instant, as a knot.
 Knot knot_of(const PlanState& state) {
   Knot knot;
@@ -25,6 +28,13 @@ Knot knot_of(const PlanState& state) {
     knot.end_effector_yaw.push_back(end.yaw);
   }
   return knot;
+}
+
+/// Whether any phase of a plan after this one is shorter than the robot's shortest.
+bool has_quick_steps(const Plan& plan, int phase) {
+  const double usual_s = phase_duration_of(plan.robot, similarity_of(plan.robot, plan.scene.gravity))[0];
+  return std::any_of(plan.phases.begin() + phase + 1, plan.phases.end(),
+                     [&](const Phase& later) { return later.duration < kUsual * usual_s; });
 }
 
 /// Until an end-effector that is late touches the plane below it [s].
@@ -125,6 +135,7 @@ Rest rest_of(const Plan& previous, double t) {
   rest.plan.phases.front().duration = std::max(times[now.phase + 1] - t, 0.0);
   rest.plan.final_contacts = previous.final_contacts;
   rest.planned.assign(rest.plan.phases.size(), 1);
+  rest.quick = has_quick_steps(previous, now.phase);
   return rest;
 }
 

@@ -14,6 +14,9 @@ namespace mcplan::ddp {
 
 struct Tail;
 
+/// Phases of steps that catch a push may be shorter than the robot's shortest by this ratio. Chosen.
+constexpr double kQuicker = 0.5;
+
 /// What is left of a plan: phases, knots and final contacts, without swings. The first knot is the measured state.
 struct Rest {
   Plan plan;
@@ -24,6 +27,7 @@ struct Rest {
   bool free_end = false;             ///< it ends at rest, wherever that is
   std::shared_ptr<const Tail> tail;  ///< what stays as it was planned, after these phases; null: nothing
   double shortest_s = 0.0;           ///< phases may be as short; 0: as the robot's
+  bool quick = false;                ///< phases ahead are shorter than the robot's: steps that catch a push
 
   /// A foot that steps across another: the knot at which it lands, both end-effectors, and the level axis from the
   /// other's sole to the one's along which they are kept apart.

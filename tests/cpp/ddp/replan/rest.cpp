@@ -53,6 +53,16 @@ TEST_CASE("the rest of a plan moves as the plan does") {
   }
 }
 
+TEST_CASE("the rest is quick where phases ahead of the one under way are shorter than the robot's") {
+  Plan quick = walk();
+  CHECK(!rest_of(quick, 1.0).quick);
+  quick.phases[4].duration = 0.6 * phase_duration_of(quick.robot, human())[0];
+  const std::vector<double> times = quick.knot_times();
+  CHECK(rest_of(quick, times[3]).quick);
+  CHECK(!rest_of(quick, times[4]).quick);
+  CHECK(!rest_of(quick, quick.duration()).quick);
+}
+
 TEST_CASE("what is desired goes with the phases that are put in, dropped or left alone") {
   Rest rest = rest_of(walk(), 1.0);
   rest.desired = rest.plan.knots;
