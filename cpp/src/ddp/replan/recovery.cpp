@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -170,14 +169,13 @@ class Steps {
   /// From a least time up to a longest one [s], that in which the foot in the air gets to where the capture point is by
   /// then.
   double time_to_capture(int foot, double least_s, double longest_s) const {
-    const Vector3d from_W = rest_.plan.knots.back().end_effectors_W[foot];
+    const Knot& knot = rest_.plan.knots.back();
+    const Vector2d from_W = knot.end_effectors_W[foot].head<2>(), at_W = pressure(knot);
     double time_s = least_s;
     for (; time_s < longest_s; time_s += kLookEvery_s * now_->similarity.time) {
-      Steps then = *this;
-      then.wait(time_s);
-      const Found ground = then.place(foot, from_W, std::numeric_limits<double>::infinity());
-      const double way_m = (ground.place_W - from_W).head<2>().norm();
-      if (way_m <= kSwingSpeed * now_->similarity.velocity() * time_s) break;
+      Pendulum then = pendulum_;
+      then.go_on(at_W, time_s);
+      if ((near_capture(foot, then) - from_W).norm() <= kSwingSpeed * now_->similarity.velocity() * time_s) break;
     }
     return std::min(time_s, longest_s);
   }
@@ -237,23 +235,28 @@ class Steps {
     return at + turned(turned(pendulum_.capture() - at, -yaw_).cwiseMax(-half).cwiseMin(half), yaw_);
   }
 
-  /// At the capture point, but on its own side of the other one, within its reach, and no farther from a place than
-  /// `way_m`.
-  Found place(int foot, const Vector3d& from_W, double way_m) const {
+  /// The capture point of the pendulum, but on the foot's own side of the other one, and within its reach.
+  Vector2d near_capture(int foot, const Pendulum& pendulum) const {
     const EndEffector& end = robot_->end_effectors[foot];
     const int other = other_than(foot);
-    const Vector3d stands_W = rest_.plan.knots.back().end_effectors_W[other];
+    const Vector2d stands_W = rest_.plan.knots.back().end_effectors_W[other].head<2>();
     const double side = end.nominal_B.y() < 0.0 ? -1.0 : 1.0;
     const double apart_m =
         end.half_size.y() + robot_->end_effectors[other].half_size.y() + kSoleRoom * robot_->com_height;
-    Vector2d at = turned(pendulum_.capture() - stands_W.head<2>(), -yaw_);
+    Vector2d at = turned(pendulum.capture() - stands_W, -yaw_);
     at.y() = side * std::max(side * at.y(), apart_m);
-    const Vector2d relative = turned(stands_W.head<2>() - pendulum_.com, -yaw_) + at;
+    const Vector2d relative = turned(stands_W - pendulum.com, -yaw_) + at;
     const Eigen::AlignedBox3d usual = end.usual_box();
     const Vector2d within = relative.cwiseMax(usual.min().head<2>()).cwiseMin(usual.max().head<2>());
-    const Vector2d way = pendulum_.com + turned(within, yaw_) - from_W.head<2>();
+    return pendulum.com + turned(within, yaw_);
+  }
+
+  /// Ground there, or on the way there, no farther from a place than `way_m`.
+  Found place(int foot, const Vector3d& from_W, double way_m) const {
+    const Vector2d way = near_capture(foot, pendulum_) - from_W.head<2>();
     const Vector2d xy = from_W.head<2>() + way * std::min(1.0, way_m / std::max(way.norm(), 1e-9));
-    return ground_at(*now_->scene, end, Vector3d(xy.x(), xy.y(), stands_W.z()));
+    const double height_W = rest_.plan.knots.back().end_effectors_W[other_than(foot)].z();
+    return ground_at(*now_->scene, robot_->end_effectors[foot], Vector3d(xy.x(), xy.y(), height_W));
   }
 
   const Now* now_;
