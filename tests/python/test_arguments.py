@@ -54,11 +54,27 @@ WRONG: list[tuple[str, Callable[[Any], Any]]] = [
     ('report: must be a Report or None, got "solved"', lambda r: mp.show(r.plan, report="solved")),
     (f"plan: must be a Plan, a PlanarPlan, a Motion or a path, {RESULT_TEXT}", lambda r: mp.track(r)),
     ("robot: must be a Robot, a name, a path or None, got 3", lambda r: mp.track(r.plan, 3)),
+    ("path: must be a path, got 3", lambda r: r.plan.scene.save(3)),
+    ("path: must end in .toml", lambda r: r.plan.robot.save("my.json")),
+    ("path: must be that of a file, not of a folder", lambda r: r.plan.scene.save("my.toml/")),
     ("source: must be a name or a path, got None", lambda r: mp.load_scene(None)),
     ("source: must be a name or a path, got 3", lambda r: mp.load_robot(3)),
     ("source: must be a name or a path, got b'climber9'", lambda r: mp.load_planar_robot(b"climber9")),
     ("source: must be a name or a path, got a list", lambda r: mp.load_planar_task([])),
 ]
+
+
+def test_scenes_and_robots_are_written_as_they_are_read(tmp_path):
+    scene, robot = mp.load_scene("flat"), mp.load_robot("humanoid44")
+    scene.goal.position_W = [1.0, 0.4, 0.0]
+    scene.save(tmp_path / "my.toml")
+    robot.save(str(tmp_path / "robot.toml"))
+    assert repr(mp.load_scene(tmp_path / "my.toml")) == repr(scene)
+    assert repr(mp.load_robot(tmp_path / "robot.toml")) == repr(robot)
+    scene.gravity = -1.0
+    with pytest.raises(mp.errors.InvalidScene, match="gravity"):
+        scene.save(tmp_path / "wrong.toml")
+    assert not (tmp_path / "wrong.toml").exists()
 
 
 def test_check_takes_files_and_names_as_the_command_does(result, tmp_path):

@@ -468,6 +468,16 @@ class Scene:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
+    def save(self, path: str | pathlib.Path) -> None:
+        """
+        Write a TOML file, which is complete or not there at all; mcplan.load_scene and load_robot, and C++, read it.
+
+        Raises:
+            InvalidArgument: It is no path.
+            InvalidInput: The name has another ending, is empty or that of a folder.
+            InvalidScene, InvalidRobot: A field is out of its range; the message names it.
+            OSError: The file cannot be written.
+        """
     def surface_index(self, surface_name: str) -> int:
         """
         Index into surfaces, or -1.
@@ -917,6 +927,16 @@ class Robot:
     def end_effector_index(self, end_effector_name: str) -> int:
         """
         Index, or -1.
+        """
+    def save(self, path: str | pathlib.Path) -> None:
+        """
+        Write a TOML file, which is complete or not there at all; mcplan.load_scene and load_robot, and C++, read it.
+
+        Raises:
+            InvalidArgument: It is no path.
+            InvalidInput: The name has another ending, is empty or that of a folder.
+            InvalidScene, InvalidRobot: A field is out of its range; the message names it.
+            OSError: The file cannot be written.
         """
     def validate(self) -> None:
         """
