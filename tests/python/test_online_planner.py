@@ -120,8 +120,8 @@ def test_what_a_landing_turns_the_base_by_is_not_in_the_next_plan(plan):
         with Planner(plan, turn_margin_rad_s=margin_rad_s) as planner:
             planner.submit(measured)
             begins.append(planner.wait().plan.knots[0])
-    np.testing.assert_allclose(begins[0].base_rpy_rate, exact.knot.base_rpy_rate, atol=0.01)
-    np.testing.assert_allclose(begins[1].base_rpy_rate, measured.knot.base_rpy_rate, atol=0.01)
+    np.testing.assert_allclose(begins[0].base_rpy_rate, exact.knot.base_rpy_rate, atol=1e-9)
+    np.testing.assert_allclose(begins[1].base_rpy_rate, measured.knot.base_rpy_rate, atol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -102,6 +102,12 @@ Vector3d rpy_rate(const RpyTrig& trig, const Vector3d& momentum_W, const Vector3
   return rate_of(trig, momentum_W, inertia.cwiseInverse());
 }
 
+Vector3d base_momentum_W(const Vector3d& rpy, const Vector3d& rate, const Vector3d& inertia) {
+  const RpyTrig trig(rpy);
+  const Matrix3d r_WB = trig.rotation();
+  return r_WB * inertia.cwiseProduct(r_WB.transpose() * trig.angular_velocity_W(rate));
+}
+
 Vector3d rpy_rate(const Vector3d& rpy, const Vector3d& momentum_W, const Vector3d& inertia) {
   return rpy_rate(RpyTrig(rpy), momentum_W, inertia);
 }

@@ -47,6 +47,10 @@ struct RpyTrig {
 Eigen::Vector3d rpy_rate(const RpyTrig& trig, const Eigen::Vector3d& momentum_W, const Eigen::Vector3d& inertia);
 Eigen::Vector3d rpy_rate(const Eigen::Vector3d& rpy, const Eigen::Vector3d& momentum_W, const Eigen::Vector3d& inertia);
 
+/// L = R I R^T omega_W of a base whose angles have these rates: what rpy_rate() takes back to them.
+Eigen::Vector3d base_momentum_W(const Eigen::Vector3d& rpy, const Eigen::Vector3d& rate,
+                                const Eigen::Vector3d& inertia);
+
 /// Where a base turns from a given state, as a function of time: theta(h) by one Runge-Kutta step of order 4 on the
 /// momentum at begin, middle and end. The momentum itself is known in closed form (docs/theory/ddp.md, "Angular
 /// momentum and base"), so this is the one approximation of the model. Measured on the phases of gap_with_rail, against

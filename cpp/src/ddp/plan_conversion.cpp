@@ -164,9 +164,11 @@ Incumbent from_plan(const Problem& problem, const Plan& plan, int first) {
     VectorXd x = VectorXd::Zero(at.nx());
     x.segment<3>(at.com()) = knot.com_W / units.length;
     x.segment<3>(at.velocity()) = knot.com_velocity_W / units.velocity();
-    const bool has_momentum = problem.model == Model::wrench && plan.phases[0].has_momentum();
-    const Vector3d momentum =
-        has_momentum ? knot.angular_momentum_W : Vector3d(problem.robot.inertia.cwiseProduct(knot.base_rpy_rate));
+    Vector3d momentum = knot.angular_momentum_W;
+    if (problem.model == Model::lipm)
+      momentum = problem.robot.inertia.cwiseProduct(knot.base_rpy_rate);
+    else if (!plan.phases[0].has_momentum())
+      momentum = base_momentum_W(knot.base_rpy, knot.base_rpy_rate, problem.robot.inertia);
     for (int a = 0; a < at.axis_count(); ++a) {
       x[at.angle(a)] = knot.base_rpy[at.axes()[a]];
       x[at.momentum(a)] = momentum[at.axes()[a]] / units.angular_momentum();

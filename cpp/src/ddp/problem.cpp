@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/base_rotation.hpp"
 #include "ddp/constants.hpp"
 #include "ddp/problem_layout.hpp"
 #include "ddp/virtual_leg.hpp"
@@ -338,9 +339,12 @@ VectorXd Problem::state_of(const Knot& knot) const {
   VectorXd x = VectorXd::Zero(layout.nx());
   x.segment<3>(layout.com()) = knot.com_W / units.length;
   x.segment<3>(layout.velocity()) = knot.com_velocity_W / units.velocity();
-  // What the base's rates make of it where the momentum was not measured.
+  // What the base's rates make of it where the momentum was not measured; in `lipm` angles are small.
   Vector3d momentum = knot.angular_momentum_W;
-  if (model == Model::lipm || momentum.isZero(0.0)) momentum = robot.inertia.cwiseProduct(knot.base_rpy_rate);
+  if (model == Model::lipm)
+    momentum = robot.inertia.cwiseProduct(knot.base_rpy_rate);
+  else if (momentum.isZero(0.0))
+    momentum = base_momentum_W(knot.base_rpy, knot.base_rpy_rate, robot.inertia);
   for (int a = 0; a < layout.axis_count(); ++a) {
     x[layout.angle(a)] = knot.base_rpy[layout.axes()[a]];
     x[layout.momentum(a)] = momentum[layout.axes()[a]] / units.angular_momentum();

@@ -87,6 +87,18 @@ TEST_CASE("rates of the angles turn the rotation as the momentum asks") {
   }
 }
 
+TEST_CASE("the momentum of rates is what has these rates, whichever way the base heads") {
+  Random random(6);
+  for (int i = 0; i < 50; ++i) {
+    const Vector3d rpy = any_angles(random), rate = random.vector(2.0);
+    const Vector3d momentum_W = mcplan::base_momentum_W(rpy, rate, kInertia);
+    CHECK((mcplan::rpy_rate(rpy, momentum_W, kInertia) - rate).norm() < 1e-11);
+  }
+  // A base that heads to the left and rolls turns about the world's y.
+  const Vector3d rolls_W = mcplan::base_momentum_W({0.0, 0.0, M_PI_2}, {1.0, 0.0, 0.0}, kInertia);
+  CHECK((rolls_W - Vector3d(0.0, kInertia.x(), 0.0)).norm() < 1e-12);
+}
+
 TEST_CASE("derivatives of the rates are their differences") {
   Random random(2);
   for (int i = 0; i < 200; ++i) {

@@ -115,7 +115,7 @@ TEST_CASE("what a landing turns the base by is not in the plan, but for a margin
     REQUIRE(update->result);
     const Eigen::Vector3d begin = update->result->plan.knots.front().base_rpy_rate;
     const double off_rad_s = (begin - walk().at(1.0).base_rpy_rate).norm();
-    CHECK(std::abs(off_rad_s - (margin > 0.0 ? 0.0 : 0.2)) < 1e-3);
+    CHECK(std::abs(off_rad_s - (margin > 0.0 ? 0.0 : 0.2)) < 1e-9);
   }
 }
 

@@ -16,16 +16,16 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Feet = std::array<int, 2>;
 
-/// Swings and stances between them are guessed so long [s], a swing under way at least so long; there are so many
-/// steps, and phases at the end in which the robot stands. Chosen.
+/// Swings, and stances between them, are guessed so long [s], a swing under way at least so long. Chosen.
 constexpr double kSwing_s = 0.35, kBetween_s = 0.12, kSwingLeft_s = 0.1;
+/// So many steps, and phases at the end in which the robot stands. Chosen.
+constexpr int kSteps = 3, kStands = 2;
 /// What is left of a swing lasts at least as long as the foot takes to come down at this speed, and it gets no farther
 /// than at this one [m/s]. Chosen.
 constexpr double kDescent = 0.4, kSwingSpeed = 1.5;
 /// A foot whose landing is due before it gets to the capture point is also tried to land there, if that takes longer by
 /// at least so much [s]; times are looked at in steps of so much [s]. Chosen.
 constexpr double kLonger_s = 0.05, kLookEvery_s = 0.02;
-constexpr int kSteps = 3, kStands = 2;
 /// Ratio of a sole in which the centre of pressure is guessed. Chosen.
 constexpr double kInside = 0.8;
 /// The CoM comes down by so much at most [in CoM heights], and a foot bears so many weights. Chosen.
