@@ -16,10 +16,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Feet = std::array<int, 2>;
 
-/// Swings, and stances between them, are guessed so long [s], a swing under way at least so long. Chosen.
-constexpr double kSwing_s = 0.35, kBetween_s = 0.12, kSwingLeft_s = 0.1;
+/// Swings are guessed at most and at least so long [s], stances between them so long, a swing under way at least so
+/// long. Chosen.
+constexpr double kSwing_s = 0.35, kQuickSwing_s = 0.2, kBetween_s = 0.12, kSwingLeft_s = 0.1;
 /// So many steps, and phases at the end in which the robot stands. Chosen.
 constexpr int kSteps = 3, kStands = 2;
+/// A plan of so many phases at most, some of them quick, is such steps: the swing under way is made in two phases at
+/// most.
+constexpr int kRecoveryPhases = 2 + 2 * kSteps + kStands;
 /// What is left of a swing lasts at least as long as the foot takes to come down at this speed, and it gets no farther
 /// than at this one [m/s]. Chosen.
 constexpr double kDescent = 0.4, kSwingSpeed = 1.5;
@@ -81,7 +85,10 @@ Robot crossed(Robot robot, const Feet& feet) {
   return robot;
 }
 
-/// Steps that are put together one after the other, with the pendulum's motion as the guess.
+/// Steps that are put together one after the other, with the pendulum's motion as the guess. Every step catches it in
+/// the guess, whether it does or not: what is off by 0.1 m would be off by ten metres three steps later, and from such
+/// guesses nothing converges. (Measured on 188 states of the G1 within 0.6 s of pushes of 88 N: 57 plans are accepted
+/// without that, 102 with it.)
 class Steps {
  public:
   Steps(const Rest& rest, const Now& now, const Robot& robot, const Feet& feet)
@@ -166,11 +173,11 @@ class Steps {
     return std::move(rest_);
   }
 
-  /// From a least time up to a longest one [s], that in which the foot in the air gets to where the capture point is by
-  /// then.
+  /// From a least time up to a longest one [s], that in which a foot gets to where the capture point is by then, as the
+  /// other one stands.
   double time_to_capture(int foot, double least_s, double longest_s) const {
     const Knot& knot = rest_.plan.knots.back();
-    const Vector2d from_W = knot.end_effectors_W[foot].head<2>(), at_W = pressure(knot);
+    const Vector2d from_W = knot.end_effectors_W[foot].head<2>(), at_W = pressure_on(other_than(foot), knot);
     double time_s = least_s;
     for (; time_s < longest_s; time_s += kLookEvery_s * now_->similarity.time) {
       Pendulum then = pendulum_;
@@ -208,6 +215,7 @@ class Steps {
     if (ground.surface == kFree) return false;
     rest_.plan.knots.back().end_effectors_W[foot] = ground.place_W;
     rest_.plan.final_contacts[foot] = ground.surface;
+    pendulum_.velocity = pendulum_.omega * (pressure(rest_.plan.knots.back()) - pendulum_.com);
     add(rest_.plan.final_contacts, kBetween_s * now_->similarity.time);
     go_on(kBetween_s * now_->similarity.time);
     return true;
@@ -231,7 +239,11 @@ class Steps {
       const double length2 = (b - a).squaredNorm();
       return a + std::clamp(length2 > 0.0 ? (pendulum_.capture() - a).dot(b - a) / length2 : 0.0, 0.0, 1.0) * (b - a);
     }
-    const Vector2d half = kInside * robot_->end_effectors[first ? feet_[0] : feet_[1]].half_size, at = first ? a : b;
+    return pressure_on(first ? feet_[0] : feet_[1], knot);
+  }
+
+  Vector2d pressure_on(int foot, const Knot& knot) const {
+    const Vector2d half = kInside * robot_->end_effectors[foot].half_size, at = knot.end_effectors_W[foot].head<2>();
     return at + turned(turned(pendulum_.capture() - at, -yaw_).cwiseMax(-half).cwiseMin(half), yaw_);
   }
 
@@ -279,20 +291,33 @@ std::optional<Feet> two_feet(const Robot& robot) {
 /// Whether the first step goes across: past the other foot on the side on which it is by now, or on the far one.
 enum class Across { no, on_its_side, on_the_far_side };
 
-/// The steps of one foot and the other in turn; none where no ground is.
-std::optional<Rest> steps(Steps made, int foot, int other, double first_s, Across across,
+/// The steps of one foot and the other in turn, the first of which takes so long if that is said; none where no ground
+/// is.
+std::optional<Rest> steps(Steps made, int foot, int other, std::optional<double> first_s, Across across,
                           const Similarity& similarity) {
   for (int i = 0; i < kSteps; ++i) {
-    const double swing_s = i == 0 ? first_s : kSwing_s * similarity.time;
+    const int swings = i % 2 == 0 ? foot : other;
+    const double swing_s =
+        i == 0 && first_s ? *first_s
+                          : made.time_to_capture(swings, kQuickSwing_s * similarity.time, kSwing_s * similarity.time);
     const bool crosses = i == 0 && across != Across::no;
-    const bool landed = crosses ? made.land_across(foot, swing_s, across == Across::on_its_side)
-                                : made.land(i % 2 == 0 ? foot : other, swing_s);
+    const bool landed =
+        crosses ? made.land_across(foot, swing_s, across == Across::on_its_side) : made.land(swings, swing_s);
     if (!landed) return std::nullopt;
   }
   return made.stand();
 }
 
 }  // namespace
+
+std::optional<Recovery> recovery_under_way(const Rest& rest, const Now& now) {
+  const std::optional<Feet> feet = two_feet(*now.robot);
+  if (!feet || !rest.quick || rest.size() > kRecoveryPhases) return std::nullopt;
+  Recovery out{rest, upright(*now.robot, *feet, now.scene->gravity)};
+  out.rest.free_end = true;
+  out.rest.shortest_s = kQuicker * phase_duration_of(*now.robot, now.similarity)[0];
+  return out;
+}
 
 std::vector<Recovery> recoveries(const Rest& rest, const Now& now) {
   const std::optional<Feet> feet = two_feet(*now.robot);
@@ -312,7 +337,7 @@ std::vector<Recovery> recoveries(const Rest& rest, const Now& now) {
     for (int i : {first, 1 - first}) {
       Steps made(rest, now, robot, *feet);
       made.wait(is_due(i) ? std::min(left_s, kBetween_s * time) : kBetween_s * time);
-      add(steps(std::move(made), (*feet)[i], (*feet)[1 - i], kSwing_s * time, Across::no, now.similarity), robot);
+      add(steps(std::move(made), (*feet)[i], (*feet)[1 - i], std::nullopt, Across::no, now.similarity), robot);
     }
     return out;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "ddp/replan/rest.hpp"
@@ -24,5 +25,8 @@ struct Recovery {
 ///
 /// For robots on two feet; else none.
 std::vector<Recovery> recoveries(const Rest& rest, const Now& now);
+
+/// The steps that catch a push of the plan under way, to their own end; none where it has none.
+std::optional<Recovery> recovery_under_way(const Rest& rest, const Now& now);
 
 }  // namespace mcplan::ddp

@@ -30,18 +30,23 @@
 namespace mcplan::ddp {
 namespace {
 
-/// By steps that catch a push, to a stand wherever that is. Where they are not solved they wait until the end: what
-/// they violate says nothing about other ways.
+/// By steps that catch a push, to a stand wherever that is.
+void try_recovery(const Recovery& recovery, const Now& now, Trials& trials) {
+  Now there = now;
+  there.robot = &recovery.robot;
+  if (!recovery.rest.across) there.given_robot = now.robot;
+  there.surfaces = surfaces_of(*now.scene, recovery.robot, now.measured, recovery.rest);
+  trials.make(there, recovery.rest, PlanFrom::recovery, true);
+}
+
+/// By new steps that catch a push. Where they are not solved they wait until the end: what they violate says nothing
+/// about other ways.
 void recover(const Rest& rest, const Now& now, Trials& trials) {
   if (!trials.begin_recovery()) return;
   Trials::Aside aside = trials.put_aside();
   for (const Recovery& recovery : recoveries(rest, now)) {
     if (trials.solved() || trials.out_of_time()) break;
-    Now there = now;
-    there.robot = &recovery.robot;
-    if (!recovery.rest.across) there.given_robot = now.robot;
-    there.surfaces = surfaces_of(*now.scene, recovery.robot, now.measured, recovery.rest);
-    trials.make(there, recovery.rest, PlanFrom::recovery, true);
+    try_recovery(recovery, now, trials);
   }
   if (!trials.solved()) trials.spare_until_the_end();
   trials.put_back(std::move(aside));
@@ -151,6 +156,13 @@ void go_to_goal(Rest& rest, const Plan& previous, Now& now, Trials& trials) {
   const bool gone = stands_on_what_is_gone(rest, *now.scene, *now.robot);
   stand_on(rest, now.options->phases_min, now.similarity);
   now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
+  // Steps that catch a push are made before the robot looks for its way again: as long as they last, the way on is
+  // found from a fall, by slow steps that drop the CoM.
+  if (const auto begun_so = recovery_under_way(begun, now);
+      begun_so && elsewhere && others && now.options->max_work > 0) {
+    try_recovery(*begun_so, now, trials);
+    if (trials.solved()) return;
+  }
   const bool leads_on = !elsewhere || changes_contacts(rest);
   Rest near = rest;
   if (!elsewhere && !gone)

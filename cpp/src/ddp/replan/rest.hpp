@@ -39,6 +39,9 @@ struct Rest {
   };
   std::optional<Across> across;
 
+  /// Whether it is steps that catch a push.
+  bool catches_push() const { return free_end && shortest_s > 0.0; }
+
   int size() const { return static_cast<int>(plan.phases.size()); }
   int surface(int k, int e) const { return k < size() ? plan.phases[k].contacts[e].surface : plan.final_contacts[e]; }
   ContactState contacts(int k) const;

@@ -22,6 +22,11 @@ using Eigen::Vector3d;
 /// Instants are so many times farther apart where a plan is looked at for the first time. Chosen.
 constexpr double kCoarser = 5.0;
 
+/// Iterations of steps that catch a push, which are few phases and are not given up: what is accepted of them costs up
+/// to thousands. Measured on 188 states of the G1 within 0.6 s of pushes of 88 N: 102 plans are accepted with 42
+/// iterations and where costs above 300 are given up, 121 so, in the same time.
+constexpr int kRecoveryIterations = 60;
+
 /// The problem of a sequence from the measured state, inside of its limits by what was missed of them before.
 Problem pose(const Now& now, const Rest& rest, Tuning& tuning, const Again* again) {
   Options with = now.options->search;
@@ -176,10 +181,10 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   at.evaluation = search.evaluate(at, tuning);
   polish::Settings settings;
   settings.barrier = at.evaluation.defect_max < kConvergedDefect ? kWarmBarrier : kReplanBarrier;
-  settings.max_iterations = iterations;
+  settings.max_iterations = rest.catches_push() ? kRecoveryIterations : iterations;
   settings.tolerance = kRoughTolerance;
   settings.to_the_end = false;
-  settings.give_up_above = kHopeless;
+  if (!rest.catches_push()) settings.give_up_above = kHopeless;
   settings.patience = kHopelessPatience;
   const int before = report.iterations;
   trial.ending = search.optimise(at, settings, tuning);

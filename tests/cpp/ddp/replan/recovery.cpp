@@ -160,6 +160,51 @@ TEST_CASE("a hard push is answered by a plan that the checker accepts, steps to 
   CHECK(caught > 0);
 }
 
+TEST_CASE("however hard the push, the guess stays where legs reach") {
+  const Swinging swing = swinging();
+  const double height_m = walk().robot.com_height;
+  for (const double t : {swing.lifts_s - 0.05, swing.at(0.3), swing.at(0.7)})
+    for (const double push : {-1.5, -0.6, 0.6, 1.5}) {
+      CAPTURE(t);
+      CAPTURE(push);
+      const std::vector<Recovery> found = tried(t, push, {});
+      REQUIRE(!found.empty());
+      for (const Recovery& recovery : found)
+        for (const Knot& knot : recovery.rest.plan.knots) {
+          const auto away_m = [&](int e) { return (knot.com_W - knot.end_effectors_W[e]).head<2>().norm(); };
+          CHECK(std::min(away_m(0), away_m(1)) < height_m);
+        }
+    }
+}
+
+TEST_CASE("steps that catch a push are made to their end before the robot looks for its way again") {
+  const Swinging swing = swinging();
+  const Measured measured = pushed_at(swing.at(0.5), {0.0, side_of(swing.foot) * 0.5, 0.0});
+  ReplanOptions options;
+  options.recovery_first = true;
+  const Plan caught = ddp::replan(walk(), swing.at(0.5), measured, options).plan;
+  const Deadline never;
+  const Now now{
+      &walk().scene, &walk().robot, &options, &never, {}, {}, similarity_of(walk().robot, walk().scene.gravity)};
+  CHECK(!recovery_under_way(rest_of(walk(), swing.at(0.5)), now));  // a walk, whose phases are not quick
+  const Rest rest = rest_of(caught, 0.03);
+  const std::optional<Recovery> found = recovery_under_way(rest, now);
+  REQUIRE(found);
+  CHECK(found->rest.catches_push());
+  for (int k = 0; k <= rest.size(); ++k) CHECK(found->rest.contacts(k) == rest.contacts(k));
+
+  Measured later;
+  later.state = rest.plan.knots.front();
+  const PlanResult on = ddp::replan(caught, 0.03, later, walk().scene, walk().robot, options);
+  INFO(on.report.message);
+  CHECK(on.report.status == Status::solved);
+  CHECK(on.report.plan_from == PlanFrom::recovery);
+  REQUIRE(on.plan.phases.size() == static_cast<std::size_t>(rest.size()));
+  for (int k = 0; k < rest.size(); ++k)
+    for (const int e : {0, 1}) CHECK(on.plan.phases[k].contacts[e].surface == rest.surface(k, e));
+  CHECK((on.plan.knots.back().com_W - caught.knots.back().com_W).norm() < 0.02);
+}
+
 TEST_CASE("pushed outward over the foot that stands, the other one may step across it, soles one behind the other") {
   const Swinging swing = swinging();
   const double outward = side_of(swing.other), t = swing.at(0.25);
