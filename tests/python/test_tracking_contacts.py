@@ -85,3 +85,20 @@ def test_feet_in_the_air_are_not_kept_down_and_flights_are_flown():
     assert late.update([Contact(mode=FREE), Contact(mode=SEARCH)], [False, True], 0.002) == [False, True]
     late = LateLandings()  # nothing is late where the plan has both feet in the air
     assert late.update([Contact(mode=CONTACT), Contact(mode=SEARCH)], [False, False], 0.002) == [False, False]
+
+
+@pytest.mark.parametrize(
+    ("mode", "firmly", "in_contact", "moved_m", "stands"),
+    [
+        (CONTACT, False, False, 0.003, True),  # it bears nothing, and is where it landed
+        (CONTACT, False, False, 0.02, False),  # the robot tips over, and it is in the air
+        (CONTACT, False, True, 0.02, True),
+        (CONTACT, True, False, 0.02, True),
+        (FREE, True, True, 0.0, False),  # it is being lifted
+        (SEARCH, False, True, 0.0, False),  # one touch is no landing yet
+        (SEARCH, True, True, 0.0, True),
+        (SEARCH, False, False, 0.0, False),
+    ],
+)
+def test_what_a_planner_is_told_of_a_foot(mode, firmly, in_contact, moved_m, stands):
+    assert Contact(mode).stands(firmly, in_contact, moved_m) is stands

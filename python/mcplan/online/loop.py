@@ -292,17 +292,11 @@ class Loop:
         return STAND if self.stopping else command
 
     def _for_planner(self, standing: NDArray[np.bool_]) -> list[bool]:
-        """Contacts that the planner is told, sooner than forces say for certain.
-
-        A foot that is being lifted has left, though its force is not yet gone, and one that has just landed is there.
-        """
-        from mcplan.tracking.contacts import Mode
-
-        modes = [contact.mode for contact in self.controller.contacts]
+        """Contacts that the planner is told, sooner than forces say for certain."""
         told = []
-        for end, (stands, mode) in enumerate(zip(standing, modes, strict=True)):
-            lands = mode is Mode.CONTACT and self.in_contact[end]
-            told.append(bool(mode is not Mode.FREE and (stands or lands)))
+        for end, (firmly, contact) in enumerate(zip(standing, self.controller.contacts, strict=True)):
+            moved_W = self.controller.dynamics.end_effector_position_W(end) - contact.position_W
+            told.append(contact.stands(bool(firmly), bool(self.in_contact[end]), float(np.linalg.norm(moved_W))))
         return told
 
     def _take_over(self, now_s: float) -> None:

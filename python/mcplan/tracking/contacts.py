@@ -15,6 +15,8 @@ Array = NDArray[np.float64]
 EARLY_FRACTION = 0.7
 #: After a late landing the other feet stay on the ground for so long, though the plan lifts them [s].
 TOGETHER_S = 0.06
+#: An end-effector that has landed and is no farther from there stands there, whatever it bears [m]. Chosen.
+STAYS_M = 0.01
 #: Speed at which a foot that is late is lowered onto the ground [m/s], and how far [m].
 SEARCH_SPEED, SEARCH_DEPTH = 0.3, 0.08
 
@@ -69,6 +71,22 @@ class Contact:
         self.mode = Mode.SEARCH
         self.searched_s += dt_s
         return False
+
+    def stands(self, firmly: bool, in_contact: bool, moved_m: float) -> bool:
+        """Whether it stands, for a planner: sooner than forces say for certain.
+
+        One that is being lifted has left, though its force is not yet gone. One that has landed stays where it came to
+        stand, whether it bears anything or not: taken to be in the air again it would land anew in every plan, and the
+        step from it would be put off by all of them.
+
+        Args:
+            firmly: Its force says so for certain.
+            in_contact: Its force says so now.
+            moved_m: Its distance from where the contact was made [m].
+        """
+        if self.mode is Mode.FREE:
+            return False
+        return firmly or (self.mode is Mode.CONTACT and (in_contact or moved_m < STAYS_M))
 
     @property
     def search_depth_m(self) -> float:
