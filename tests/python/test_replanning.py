@@ -367,7 +367,7 @@ def test_steps_that_catch_a_push_come_first_where_that_is_asked_for(flat):
 
 
 def test_what_only_a_step_across_the_standing_foot_catches_is_caught_by_one():
-    """0.45 m/s outward over the foot that stands, in the middle of a swing of TALOS."""
+    """0.75 m/s outward over the foot that stands, in the middle of a swing of TALOS."""
     from mcplan.online.reach import widened
 
     plan = mp.plan("flat", "talos").plan
@@ -375,7 +375,7 @@ def test_what_only_a_step_across_the_standing_foot_catches_is_caught_by_one():
     knot, contacts = state_at(plan, t)
     swings, stands = (0, 1) if contacts[0] < 0 else (1, 0)
     outward = math.copysign(1.0, plan.robot.end_effectors[stands].nominal_B[1])
-    knot.com_velocity_W = knot.com_velocity_W + [0.0, 0.45 * outward, 0.0]
+    knot.com_velocity_W = knot.com_velocity_W + [0.0, 0.75 * outward, 0.0]
     robot = widened(plan.robot)
     without = mp.replan(plan, t, knot, contacts=contacts, robot=robot)
     crossed = mp.replan(plan, t, knot, contacts=contacts, robot=robot, crossing=True)
@@ -388,16 +388,15 @@ def test_what_only_a_step_across_the_standing_foot_catches_is_caught_by_one():
     assert outward * apart[1] > 0.0 and abs(apart[0]) > sum(lengths)  # across, one sole behind the other
 
 
-@pytest.mark.parametrize("ratio", [0.5, 0.75])
+@pytest.mark.parametrize("ratio", [0.2, 0.8])
 def test_steps_that_do_not_catch_a_push_hide_nothing_that_does(ratio):
-    """0.3 m/s outward and 0.2 m/s ahead in a swing of TALOS: no recovery is solved, other ways are."""
+    """0.4 m/s ahead in a swing of TALOS, its legs as long as they are: no recovery is solved, other ways are."""
     from mcplan.online.reach import widened
 
     plan = mp.plan("flat", "talos").plan
     t = time_of_phase(plan, 1, ratio)
     knot, contacts = state_at(plan, t)
-    outward = math.copysign(1.0, plan.robot.end_effectors[0 if contacts[0] >= 0 else 1].nominal_B[1])
-    knot.com_velocity_W = knot.com_velocity_W + [0.2, 0.3 * outward, 0.0]
+    knot.com_velocity_W = knot.com_velocity_W + [0.4, 0.0, 0.0]
     lines: list[str] = []
     result = mp.replan(
         plan,
@@ -405,7 +404,6 @@ def test_steps_that_do_not_catch_a_push_hide_nothing_that_does(ratio):
         knot,
         contacts=contacts,
         robot=widened(plan.robot),
-        crossing=True,
         recovery_first=True,
         logger=lambda _, line: lines.append(line),
     )
@@ -421,7 +419,7 @@ def test_what_is_said_of_a_plan_is_what_the_checker_says_of_it():
 
     plan = mp.plan("flat", "talos").plan
     statuses, kinds = set(), set()
-    for ratio, push in ((0.3, 0.45), (0.3, 0.5), (0.3, 0.55), (0.6, 0.6), (0.2, 0.5), (0.8, 0.8)):
+    for ratio, push in ((0.3, 0.45), (0.3, 0.5), (0.3, 0.55), (0.6, 0.6), (0.2, 0.5), (0.8, 0.8), (0.3, 1.2)):
         t = time_of_phase(plan, 1, ratio)
         knot, contacts = state_at(plan, t)
         outward = math.copysign(1.0, plan.robot.end_effectors[0 if contacts[0] >= 0 else 1].nominal_B[1])
