@@ -98,7 +98,7 @@ class Steps {
                  std::sqrt(now.scene->gravity / robot.com_height)};
     rest_.keep_first();
     rest_.free_end = true;
-    rest_.shortest_s = kQuicker * phase_duration_of(robot, now.similarity)[0];
+    rest_.shortest_s = quickest_s(robot, now.similarity);
     rest_.plan.final_contacts = rest.contacts(0);
     Knot& end = rest_.plan.knots.back() = start;
     end.base_rpy_rate.setZero();
@@ -315,7 +315,7 @@ std::optional<Recovery> recovery_under_way(const Rest& rest, const Now& now) {
   if (!feet || !rest.quick || rest.size() > kRecoveryPhases) return std::nullopt;
   Recovery out{rest, upright(*now.robot, *feet, now.scene->gravity)};
   out.rest.free_end = true;
-  out.rest.shortest_s = kQuicker * phase_duration_of(*now.robot, now.similarity)[0];
+  out.rest.shortest_s = quickest_s(*now.robot, now.similarity);
   return out;
 }
 

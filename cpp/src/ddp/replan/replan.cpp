@@ -85,7 +85,7 @@ void recover_if_pushed(const Rest& rest, const Now& now, Trials& trials) {
   if (!is_pushed(now) && !rest.quick) return;
   if (rest.quick && !trials.solved()) {
     Rest as_quick = rest;
-    as_quick.shortest_s = kQuicker * phase_duration_of(*now.robot, now.similarity)[0];
+    as_quick.shortest_s = quickest_s(*now.robot, now.similarity);
     trials.make(now, as_quick, PlanFrom::same_sequence, true);
   }
   const bool dropped = trials.solved() && !stays_upright(trials.best()->plan, *now.robot, now.similarity) &&

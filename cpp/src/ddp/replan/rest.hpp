@@ -14,8 +14,10 @@ namespace mcplan::ddp {
 
 struct Tail;
 
-/// Phases of steps that catch a push may be shorter than the robot's shortest by this ratio. Chosen.
-constexpr double kQuicker = 0.5;
+/// How short phases of steps that catch a push may be [s]: half as long as the robot's shortest. Chosen.
+inline double quickest_s(const Robot& robot, const Similarity& similarity) {
+  return 0.5 * phase_duration_of(robot, similarity)[0];
+}
 
 /// What is left of a plan: phases, knots and final contacts, without swings. The first knot is the measured state.
 struct Rest {
