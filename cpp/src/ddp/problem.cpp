@@ -72,7 +72,6 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   make_durations();
   make_surfaces();
   const std::vector<std::vector<int>> surfaces = make_ends();
-  // The interior point has no rows for joints.
   layout = model == Model::lipm ? lipm_layout(limits, options.method == Method::paper)
                                 : wrench_layout(limits, polygons, surfaces);
   rules = ContactRules(surfaces, make_state_rules(), options.one_switch_per_step,
