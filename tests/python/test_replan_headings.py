@@ -48,6 +48,25 @@ def test_soles_may_be_counted_otherwise_than_the_base(backwards):
     assert mp.replan(backwards, 1.0, knot, contacts=contacts).report.status == mp.Status.solved
 
 
+def test_a_goal_is_the_same_however_its_turns_are_counted():
+    scene = mp.load_scene("flat")
+    start, goal = scene.start, scene.goal
+    start.yaw, goal.yaw = 3.0, -3.0
+    goal.position_W = start.position_W
+    scene.start, scene.goal = start, goal
+    across = mp.plan(scene, "humanoid44").plan
+    goal.yaw += TURN
+    scene.goal = goal
+    counted = mp.plan(scene, "humanoid44").plan
+    assert across == counted and counted.knots[-1].base_rpy[2] == pytest.approx(goal.yaw, abs=0.01)
+    goal.yaw -= TURN
+    scene.goal = goal
+    knot, contacts = state_at(across, 1.0)
+    on = mp.replan(across, 1.0, knot, contacts=contacts, scene=scene)
+    assert on.report.status == mp.Status.solved
+    assert on.plan.knots[-1].base_rpy[2] == pytest.approx(TURN - 3.0, abs=0.01)
+
+
 @pytest.mark.parametrize("wrapped", [True, False])
 @pytest.mark.parametrize("rate", [0.3, -0.3])
 def test_a_robot_turns_on_beyond_half_a_turn(backwards, wrapped, rate):

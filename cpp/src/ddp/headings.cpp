@@ -16,6 +16,11 @@ double smooth(double share) {
 
 }  // namespace
 
+double turning_least(double from, double to) {
+  constexpr double kEqual = 1e-9;
+  return std::abs(to - from) > M_PI + kEqual ? from + std::remainder(to - from, 2.0 * M_PI) : to;
+}
+
 Headings::Headings(const Course& course, double from, double to, const Eigen::Vector2d& way)
     : course_(&course), from_(from), to_(to), way_(from) {
   straight_ = from_ == to_ && course.route.empty() && !course.faces_way;

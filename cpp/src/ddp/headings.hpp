@@ -21,6 +21,10 @@ struct Course {
 /// (Tazaki, sec. III-A).
 std::pair<double, double> progress_at(const Course& course, int k, int steps, double total);
 
+/// The yaw `to` [rad], counted so that the base turns by half a turn at most from `from`; one that is half a turn off
+/// keeps its sign.
+double turning_least(double from, double to);
+
 /// Where the base looks along a course: evenly from the start's yaw to the goal's, or first to the way, straight ahead
 /// or backwards, whichever asks for less turning, and last to the goal's; and with the turns of the route. Theory:
 /// docs/theory/ddp.md, "Routes".

@@ -9,6 +9,7 @@
 #include "ddp/best_plan.hpp"
 #include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
+#include "ddp/headings.hpp"
 #include "ddp/impossible.hpp"
 #include "ddp/joined_ground.hpp"
 #include "ddp/plan_conversion.hpp"
@@ -186,6 +187,9 @@ SwitchedDdp::SwitchedDdp(const Scene& scene, const Robot& robot, const Options& 
     : impl_(std::make_unique<Impl>(Impl{scene, robot_for(robot, options), options})) {
   // Working the problem out validates everything.
   const Problem problem(scene, robot, options);
+  // A heading is the same after whole turns; scenes hold none beyond one.
+  const double yaw = turning_least(scene.start.yaw, scene.goal.yaw);
+  if (std::abs(yaw) <= 2.0 * M_PI) impl_->scene.goal.yaw = yaw;
   if (!options.initial_sequence.empty()) problem.to_active(options.initial_sequence);
 }
 SwitchedDdp::~SwitchedDdp() = default;

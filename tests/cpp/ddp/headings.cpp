@@ -30,6 +30,13 @@ TEST_CASE("headings go evenly from the start's to the goal's, or by way of where
           doctest::Approx((turned.at(share + 1e-5) - turned.at(share - 1e-5)) / 2e-5).epsilon(1e-3));
 }
 
+TEST_CASE("a heading is counted so that the base turns least") {
+  CHECK(turning_least(3.0, -3.0) == doctest::Approx(2.0 * M_PI - 3.0));
+  CHECK(turning_least(-3.0, 3.0) == doctest::Approx(3.0 - 2.0 * M_PI));
+  CHECK(turning_least(0.0, 3.0 * kQuarter) == doctest::Approx(-kQuarter));
+  for (double as_it_stands : {-M_PI, -1.0, 0.0, 3.0, M_PI}) CHECK(turning_least(0.0, as_it_stands) == as_it_stands);
+}
+
 TEST_CASE("the base walks backwards where it would turn farther to walk ahead") {
   const Course facing{{}, true};
   CHECK(Headings(facing, 0.0, 0.0, Vector2d(-2, 0)).turn_to_way() == doctest::Approx(0.0));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ddp/constants.hpp"
+#include "ddp/headings.hpp"
 #include "ddp/reachable_surfaces.hpp"
 #include "ddp/replan_fit.hpp"
 #include "mcplan/base/error.hpp"
@@ -99,6 +100,14 @@ std::vector<int> surfaces_of(const Scene& scene, const Robot& robot, const Measu
   const ResolvedStance goal = resolve_stance(scene, robot, scene.goal, "goal");
   return surfaces_near_way(scene, measured.state.end_effectors_W, goal.end_effectors_W,
                            outlook(0).reach * reach_of(robot), needed);
+}
+
+std::optional<Scene> with_goal_counted(const Scene& scene, const Plan& previous) {
+  const double yaw = turning_least(previous.knots.back().base_rpy.z(), scene.goal.yaw);
+  if (yaw == scene.goal.yaw || !(std::abs(yaw) <= kTurn)) return std::nullopt;
+  Scene counted = scene;
+  counted.goal.yaw = yaw;
+  return counted;
 }
 
 void rename(Rest& rest, const Scene& scene) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "ddp/replan/rest.hpp"
@@ -27,6 +28,10 @@ Measured completed(const Measured& measured, const Plan& previous, double t, con
 /// The rest and the measured state by as many whole turns further as it takes to count them as `yaw`, a measured
 /// heading, does; one far from 0 is taken as the same within half a turn, since a goal's is bounded.
 void count_turns_as(double yaw, Rest& rest, Measured& measured);
+
+/// The scene with its goal's heading counted as the plan counts turns, by which the base turns least from the plan's
+/// end; none where it is.
+std::optional<Scene> with_goal_counted(const Scene& scene, const Plan& previous);
 
 /// The rest on another scene than the plan's, by the names of surfaces. Throws InvalidScene where one is missing.
 void rename(Rest& rest, const Scene& scene);

@@ -242,6 +242,8 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   previous.validate();
   scene_in.validate();
   robot_in.validate();
+  const std::optional<Scene> counted = with_goal_counted(scene_in, previous);
+  const Scene& scene = counted ? *counted : scene_in;
   const Robot robot = robot_for(robot_in, options.search);
   require_fit(previous, given.state, robot);
   require_contacts(given.contacts, previous);
@@ -251,21 +253,21 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   report.threads = options.search.threads;
   report.version = MCPLAN_VERSION;
   if (const std::optional<Impossible> impossible =
-          options.command ? std::nullopt : why_impossible(scene_in, robot, true, options.search.allow_flight)) {
+          options.command ? std::nullopt : why_impossible(scene, robot, true, options.search.allow_flight)) {
     report.status = Status::infeasible;
     report.message = impossible->message;
     report.worst_violation = impossible->violation;
     report.time_s = deadline.elapsed_s();
     return out;
   }
-  Now now{&scene_in, &robot, &options, &deadline, {}, {}, similarity_of(robot, scene_in.gravity)};
-  now.measured = completed(given, previous, t, scene_in, robot);
+  Now now{&scene, &robot, &options, &deadline, {}, {}, similarity_of(robot, scene.gravity)};
+  now.measured = completed(given, previous, t, scene, robot);
   const Rest planned = rest_of(previous, t);
   now.under_way = swings_under_way(previous, t);
   now.normals_W = sole_normals(previous, t);
   now.pushed_W = now.measured.state.com_velocity_W - planned.plan.knots.front().com_velocity_W;
   Rest rest = planned;
-  rename(rest, scene_in);
+  rename(rest, scene);
   if (options.command) count_turns_as(given.state.base_rpy.z(), rest, now.measured);
   // Out of time, what was planned is better than what cannot be followed; there may be no time then to look at it.
   const bool ended = planned.plan.duration() < kEnded_s;
