@@ -547,3 +547,20 @@ def test_a_foot_that_lies_on_a_slope_and_is_said_to_touch_nothing_is_not_in_the_
         assert report.status.name == "solved", report.message
         seen += 1
     assert seen >= 2
+
+
+def test_a_velocity_leads_onto_a_block_under_which_the_floor_goes_on():
+    scene = mp.load_scene("flat")
+    block = scene.surfaces[0].__copy__()
+    block.name, block.thickness = "block", 0.1
+    block.vertices_W = [[0.25, -1, 0.1], [2, -1, 0.1], [2, 1, 0.1], [0.25, 1, 0.1]]
+    scene.surfaces = [*scene.surfaces, block]
+    goal = scene.goal
+    goal.position_W, goal.contacts = [0.9, 0, 0.1], {"foot": "block"}
+    scene.goal = goal
+    plan = mp.plan(scene, "humanoid44").plan
+    knot, contacts = state_at(plan, 0.0)
+    result = mp.replan(plan, 0.0, knot, contacts=contacts, command=(0.25, 0.0, 0.0))
+    assert result.report.status == mp.Status.solved
+    left, right = (scene.surfaces[result.plan.final_contacts[foot]].name for foot in (0, 1))
+    assert left == right == "block"

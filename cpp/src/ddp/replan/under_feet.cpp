@@ -5,6 +5,25 @@
 #include "mcplan/scene/polygon.hpp"
 
 namespace mcplan::ddp {
+namespace {
+
+/// A sole may be so deep in the solid of another surface [m]: overlapping tiles are not even to the millimetre. Chosen.
+constexpr double kDeep_m = 0.005;
+
+/// Whether the solid of another surface is where a sole would stand: the floor that goes on below a block is no ground.
+bool in_solid(const Scene& scene, const Found& found, const EndEffector& end) {
+  const double room_m = std::max(end.half_size.minCoeff(), 0.0);
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const Surface& surface = scene.surfaces[i];
+    if (static_cast<int>(i) == found.surface || !(surface.thickness > 0.0)) continue;
+    const Polygon polygon(surface.vertices_W);
+    const double deep_m = -polygon.height(found.place_W);
+    if (deep_m > kDeep_m && deep_m <= surface.thickness && polygon.outside(found.place_W) < room_m) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 std::vector<Found> grounds_near(const Scene& scene, const EndEffector& end, const Eigen::Vector3d& desired_W) {
   std::vector<Found> out;
@@ -19,6 +38,8 @@ std::vector<Found> grounds_near(const Scene& scene, const EndEffector& end, cons
 
 Found ground_at(const Scene& scene, const EndEffector& end, const Eigen::Vector3d& desired_W) {
   const std::vector<Found> found = grounds_near(scene, end, desired_W);
+  for (const Found& one : found)
+    if (!in_solid(scene, one, end)) return one;
   return found.empty() ? Found() : found.front();
 }
 

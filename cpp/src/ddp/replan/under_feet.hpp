@@ -29,7 +29,7 @@ struct Found {
 /// All surfaces that an end-effector may touch, nearest to a place [m] first; equally near ones in the scene's order.
 std::vector<Found> grounds_near(const Scene& scene, const EndEffector& end, const Eigen::Vector3d& desired_W);
 
-/// The nearest of them; kFree where there is none.
+/// The nearest of them on which nothing lies, or else the nearest; kFree where there is none.
 Found ground_at(const Scene& scene, const EndEffector& end, const Eigen::Vector3d& desired_W);
 
 }  // namespace mcplan::ddp

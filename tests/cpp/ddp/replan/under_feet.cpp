@@ -24,3 +24,24 @@ TEST_CASE("ground is found nearest first, and only where the end-effector may st
   for (Surface& surface : scene.surfaces) surface.end_effectors = {"nobody"};
   CHECK(ground_at(scene, robot.end_effectors[0], wanted_W).surface == kFree);
 }
+
+TEST_CASE("the floor that goes on below a block is no ground") {
+  const Robot robot = scenes::humanoid44();
+  const EndEffector& foot = robot.end_effectors[0];
+  Scene scene = scenes::flat();
+  const int floor = 0, block = static_cast<int>(scene.surfaces.size());
+  const auto at = [&](double x, double z) { return ground_at(scene, foot, Eigen::Vector3d(x, 0.0, z)); };
+  const Found before = at(0.5, 0.0);
+  REQUIRE(before.surface == floor);
+  Surface top = scene.surfaces[floor];
+  top.name = "block";
+  top.vertices_W = {{0.4, -0.3, 0.1}, {0.8, -0.3, 0.1}, {0.8, 0.3, 0.1}, {0.4, 0.3, 0.1}};
+  top.thickness = 0.1;
+  scene.surfaces.push_back(top);
+  CHECK(at(0.5, 0.0).surface == block);
+  CHECK(at(0.5, 0.0).place_W.z() == doctest::Approx(0.1));
+  CHECK(at(0.4 - 0.5 * foot.half_size.minCoeff(), 0.0).surface == block);  // half of a sole would be in it
+  CHECK(at(0.4 - 2.0 * foot.half_size.minCoeff(), 0.0).surface == floor);
+  scene.surfaces[block].thickness = 0.05;  // a shelf with room below, as far as soles are concerned
+  CHECK(at(0.5, 0.0).surface == floor);
+}
