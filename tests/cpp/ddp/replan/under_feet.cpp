@@ -42,6 +42,9 @@ TEST_CASE("the floor that goes on below a block is no ground") {
   CHECK(at(0.5, 0.0).place_W.z() == doctest::Approx(0.1));
   CHECK(at(0.4 - 0.5 * foot.half_size.minCoeff(), 0.0).surface == block);  // half of a sole would be in it
   CHECK(at(0.4 - 2.0 * foot.half_size.minCoeff(), 0.0).surface == floor);
+  for (Eigen::Vector3d& vertex_W : scene.surfaces[block].vertices_W) vertex_W.z() = 0.003;  // all but even with it
+  CHECK(at(0.5, 0.0).surface == floor);
+  for (Eigen::Vector3d& vertex_W : scene.surfaces[block].vertices_W) vertex_W.z() = 0.1;
   scene.surfaces[block].thickness = 0.05;  // a shelf with room below, as far as soles are concerned
   CHECK(at(0.5, 0.0).surface == floor);
 }
