@@ -8,6 +8,7 @@ from mcplan.online.goals import (
     LOOKED_FOR_S,
     NEAR_RAD,
     NEAR_RATIO,
+    NEARER_RAD,
     NEARER_RATIO,
     NO_NEARER_S,
     Aim,
@@ -115,11 +116,16 @@ def test_where_a_velocity_brings_no_nearer_steps_to_the_goal_are_looked_for_agai
     assert aim.velocity(13.3 + NO_NEARER_S - 0.1, place + nearer, 0.0) is not None
 
 
-def test_no_steps_are_looked_for_to_a_goal_that_is_turned(robot):
+def test_to_a_goal_that_is_turned_steps_are_looked_for_where_a_velocity_does_not_turn_to_it(robot):
     aim, place = Aim(mp.load_scene("flat"), robot), np.array([0.5, 0.0, 0.9])
-    aim.stopped(0.0, place, 1.0)
-    for now_s in (0.0, 10.0, 60.0):
-        assert aim.velocity(now_s, place, 1.0) is not None
+    aim.stopped(0.0, place, 1.5)
+    for now_s, heading in ((0.0, 1.5), (3.0, 1.45), (3.9, 1.5 - NEARER_RAD - 0.01), (7.8, 1.4)):
+        assert aim.velocity(now_s, place, heading) is not None
+    assert aim.velocity(8.0, place, 1.4) is None
+    aim.stopped(8.1, place, 1.4)
+    assert aim.open and not aim.steering
+    aim.stopped(8.0 + LOOKED_FOR_S + 0.1, place, 1.4)
+    assert aim.steering and aim.velocity(10.2, place, 1.4) is not None
 
 
 @pytest.mark.parametrize("goal", [(1.0, 50.0, 0.0), (1.0, 6.0, 0.0), (1.0, -5.5, 0.0)])

@@ -119,7 +119,7 @@ int Ground::solid_at(const Vector2d& at, double height, const Layer& layer) cons
   return found == solids_.end() ? -1 : found->surface;
 }
 
-std::vector<Place> Ground::places(const Vector2d& at) const {
+std::vector<Place> Ground::places(const Vector2d& at, double room) const {
   double widest = 0.0;
   for (const Vector2d& place : nominal_) widest = std::max(widest, place.norm());
   const double far = gap() + widest;
@@ -150,7 +150,7 @@ std::vector<Place> Ground::places(const Vector2d& at) const {
     if (!stands) continue;
     // The trunk is a cylinder as wide as the feet stand, and what the robot has above it.
     for (const Layer& layer : layers_)
-      if (place.solid < 0) place.solid = solid_at(at, place.height, layer);
+      if (place.solid < 0) place.solid = solid_at(at, place.height, {layer.low, layer.high, room * layer.within});
     const Layer turning{layers_.front().low, layers_.front().high, radius_};
     place.tight = place.solid >= 0 || solid_at(at, place.height, turning) >= 0 ||
                   (arms_.within > 0.0 && solid_at(at, place.height, arms_) >= 0);

@@ -29,8 +29,9 @@ class Ground {
   bool has_feet() const { return !feet_.empty(); }
 
   /// The places with the CoM above this point, highest first: those heights of surfaces within gap() of it at which
-  /// every foot, in its nominal place, finds one within gap() as well.
-  std::vector<Place> places(const Eigen::Vector2d& at) const;
+  /// every foot, in its nominal place, finds one within gap() as well. `room`: how near solids may be, over what a walk
+  /// keeps from them.
+  std::vector<Place> places(const Eigen::Vector2d& at, double room = 1.0) const;
 
   double stride() const { return stride_; }  ///< the longest step of all feet
   double rise() const { return rise_; }      ///< and the highest one

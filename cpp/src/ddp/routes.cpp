@@ -304,8 +304,12 @@ void find_detours(const Ground& ground, const Ends& ends, Routes& routes) {
 }  // namespace
 
 Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside) {
-  const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
-  const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
+  return find_routes(scene, robot, resolve_stance(scene, robot, scene.start, "start"),
+                     resolve_stance(scene, robot, scene.goal, "goal"), sole_inside);
+}
+
+Routes find_routes(const Scene& scene, const Robot& robot, const ResolvedStance& from, const ResolvedStance& to,
+                   double sole_inside) {
   Routes routes;
   const Ground ground(scene, robot, from, to, sole_inside);
   if (!ground.has_feet() || !(ground.stride() > 0.0)) return routes;

@@ -38,6 +38,10 @@ struct Routes {
 /// straight. `sole_inside` is the search's option.
 Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside = -1.0);
 
+/// The same between two stances.
+Routes find_routes(const Scene& scene, const Robot& robot, const ResolvedStance& from, const ResolvedStance& to,
+                   double sole_inside);
+
 /// Point at this share of a route's length. Its corners are rounded, its ends are not.
 Eigen::Vector3d point_on(const Route& route, double share);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <queue>
 #include <tuple>
 
@@ -68,6 +69,7 @@ class FootstepSearch {
       regions_[i] =
           region_of(robot.end_effectors[walk.feet[i]], robot.end_effectors[walk.feet[1 - i]], robot.com_height, ratio);
     for (const Surface& surface : scene.surfaces) polygons_.emplace_back(surface.vertices_W);
+    if (!walk.route.empty()) route_.emplace(walk.route, walk.to[0].yaw, cell_m_);
   }
 
   std::vector<Footstep> run() {
@@ -92,14 +94,27 @@ class FootstepSearch {
 
   /// What it costs at least where feet head as they are to: a step of the longest stride costs least for its length.
   double at_least(const Node& node) const {
-    double rounds = 0.0;  // of one step by each foot
+    double rounds = 0.0;
     for (int i = 0; i < 2; ++i) {
       const Vector2d off = turned((walk_->to[i].place_W - node.feet[i].place_W).head<2>(), -walk_->to[i].yaw);
-      rounds = std::max({rounds, std::abs(off.x()) / (2.0 * regions_[i].ahead_m),
-                         std::abs(off.y()) / (regions_[i].high_m - regions_[i].low_m)});
+      rounds = std::max(rounds, rounds_for(off, i));
+    }
+    if (route_) {
+      const Vector3d here_W = middle(node);
+      const AlongRoute::Point& on = route_->nearest(here_W);
+      const Vector2d off = turned((on.at_W - here_W).head<2>(), -on.yaw);
+      rounds = std::max(rounds, rounds_for(off.cwiseAbs() + on.left, 0));
     }
     return (1.0 + kWayEffort) * std::max(2.0 * rounds - 1.0, 0.0);
   }
+
+  /// Of one step by each foot.
+  double rounds_for(const Vector2d& off, int i) const {
+    return std::max(std::abs(off.x()) / (2.0 * regions_[i].ahead_m),
+                    std::abs(off.y()) / (regions_[i].high_m - regions_[i].low_m));
+  }
+
+  static Vector3d middle(const Node& node) { return 0.5 * (node.feet[0].place_W + node.feet[1].place_W); }
 
   Key key_of(const Node& node) const {
     const auto cell = [&](double x) { return static_cast<int>(std::lround(x / cell_m_)); };
@@ -132,6 +147,7 @@ class FootstepSearch {
       if (!std::isfinite(price)) continue;
       Node next = node;
       next.feet[i] = onto;
+      if (route_ && !is_free(middle(next))) continue;
       next.turn = 1 - i;
       next.cost += price;
       next.before = at;
@@ -155,7 +171,8 @@ class FootstepSearch {
     std::vector<Foothold> out{walk_->to[i]};
     if (first) out.insert(out.end(), walk_->offered.begin(), walk_->offered.end());
     const EndEffector& end = robot_->end_effectors[walk_->feet[i]];
-    const double yaw = standing.yaw + std::clamp(walk_->to[i].yaw - standing.yaw, -kWayTurn_rad, kWayTurn_rad);
+    const double there = route_ ? route_->nearest(middle(node)).yaw : walk_->to[i].yaw;
+    const double yaw = standing.yaw + std::clamp(there - standing.yaw, -kWayTurn_rad, kWayTurn_rad);
     for (std::size_t s = 0; s < polygons_.size(); ++s) {
       if (!may_touch(scene_->surfaces[s], end)) continue;
       const Vector3d nearest_W = polygons_[s].nearest(standing.place_W);
@@ -174,6 +191,15 @@ class FootstepSearch {
         }
     }
     return out;
+  }
+
+  /// Whether there is room for the trunk; told once for each place.
+  bool is_free(const Vector3d& middle_W) {
+    const auto cell = [&](double x) { return static_cast<int>(std::lround(x / (0.5 * cell_m_))); };
+    const std::array<int, 3> place{cell(middle_W.x()), cell(middle_W.y()), cell(middle_W.z())};
+    const auto [known, fresh] = free_.try_emplace(place, true);
+    if (fresh) known->second = walk_->round->is_free(middle_W);
+    return known->second;
   }
 
   /// Of a step beside a foot that stands; infinite where it is out of reach. One step costs 1, a stride as long, as
@@ -211,6 +237,8 @@ class FootstepSearch {
   std::vector<Polygon> polygons_;
   std::vector<Node> nodes_;
   std::map<Key, double> best_;
+  std::optional<AlongRoute> route_;
+  std::map<std::array<int, 3>, bool> free_;
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
 };

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "ddp/replan/round_solids.hpp"
 #include "ddp/replan/under_feet.hpp"
 #include "mcplan/robot/robot.hpp"
 #include "mcplan/scene/scene.hpp"
@@ -31,11 +32,14 @@ struct Walk {
   int first = 0;                  ///< of the two: who steps first; a foot in the air has to
   std::vector<Foothold> offered;  ///< where the first step may be made besides
   double elsewhere = 0.0;         ///< [1/CoM heights] price of a first step by how far it is from the first of these
+  const RoundSolids* round = nullptr;  ///< what is in the way, if anything
+  Route route;                         ///< round it
 };
 
 /// The cheapest alternating steps that lead there over the surfaces that the feet may touch, with strides up to a ratio
 /// of what boxes of reach allow; empty where there are none. A* over footholds: those of the goal, those offered,
-/// and on each surface near to the foot that stands the places that are nearest to a few strides.
+/// and on each surface near to the foot that stands the places that are nearest to a few strides. Along a route the
+/// middle of the feet stays where there is room for the trunk, and feet turn with it.
 std::vector<Footstep> footsteps(const Walk& walk, const Scene& scene, const Robot& robot, double ratio);
 
 }  // namespace mcplan::ddp

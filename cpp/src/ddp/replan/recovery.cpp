@@ -170,6 +170,7 @@ class Steps {
       knot.com_W = middle_W + robot_->com_height * Vector3d::UnitZ();
       knot.com_velocity_W.setZero();
     }
+    rest_.carry_hands(*robot_);
     return std::move(rest_);
   }
 

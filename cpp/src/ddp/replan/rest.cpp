@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "ddp/constants.hpp"
+#include "ddp/replan/under_feet.hpp"
+#include "mcplan/base/rotation.hpp"
 #include "mcplan/scene/polygon.hpp"
 
 namespace mcplan::ddp {
@@ -106,6 +108,18 @@ void Rest::share_weight(int k) {
     contacts[e].anchor_W = contacts[e].center_of_pressure_W = plan.knots[k].end_effectors_W[e];
     if (surface != kFree)
       contacts[e].stiffness = plan.scene.gravity / plan.robot.com_height / static_cast<double>(standing);
+  }
+}
+
+void Rest::carry_hands(const Robot& robot) {
+  const Knot start = plan.knots.front();
+  const Eigen::Matrix3d from_start = rotation_from_rpy(start.base_rpy).transpose();
+  for (int k = 1; k <= size(); ++k) {
+    Knot& knot = plan.knots[k];
+    const Eigen::Matrix3d turn = rotation_from_rpy(knot.base_rpy) * from_start;
+    for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e)
+      if (!is_foot(robot, e) && surface(0, e) == kFree && surface(k, e) == kFree)
+        knot.end_effectors_W[e] = knot.com_W + turn * (start.end_effectors_W[e] - start.com_W);
   }
 }
 

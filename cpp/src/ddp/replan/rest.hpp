@@ -55,6 +55,10 @@ struct Rest {
   /// Share the weight among the contacts of a phase, with forces that act at the end-effectors and point at the CoM.
   void share_weight(int k);
 
+  /// Let the base carry what is in the air from the beginning on and is no foot: hands stay where they are to it. From
+  /// hands that are left behind while the robot walks away solves do not converge: they end 0.4 m out of reach.
+  void carry_hands(const Robot& robot);
+
   /// Leave the phase under way alone, of which nothing is kept: steps are put together after it anew.
   void keep_first();
 

@@ -122,6 +122,7 @@ class RestOfSteps {
     std::vector<Knot>& knots = out_.plan.knots;
     const std::vector<double> times = out_.plan.knot_times();
     for (int k = 1; k <= out_.size(); ++k) stand_over_feet(knots[k]);
+    out_.carry_hands(*robot_);
     for (int k = 1; k <= out_.size(); ++k) {
       Knot& knot = knots[k];
       knot.com_velocity_W.setZero();
@@ -155,6 +156,15 @@ class RestOfSteps {
   Rest out_;
 };
 
+/// As a walk stands, its feet where it goes on from.
+ResolvedStance stance_of(const Walk& walk, const Scene& scene, const Robot& robot) {
+  ResolvedStance out = resolve_stance(scene, robot, scene.goal, "goal");
+  out.com_W = 0.5 * (walk.from[0].place_W + walk.from[1].place_W);
+  out.com_W.z() += robot.com_height;
+  out.yaw = 0.5 * (walk.from[0].yaw + walk.from[1].yaw);
+  return out;
+}
+
 bool same_contacts(const Rest& one, const Rest& other) {
   if (one.size() != other.size()) return false;
   for (int k = 0; k <= one.size(); ++k)
@@ -179,6 +189,9 @@ std::vector<Rest> ways_on(const Rest& rest, const Scene& scene, const Robot& rob
   std::optional<Walk> walk = walk_of(rest, scene, robot);
   if (!walk) return {};
   const bool in_the_air = walk->from[0].surface == kFree || walk->from[1].surface == kFree;
+  const RoundSolids round(scene, robot, stance_of(*walk, scene, robot),
+                          resolve_stance(scene, robot, scene.goal, "goal"));
+  walk->round = &round;
   std::vector<Rest> out;
   const auto add = [&](const std::vector<Footstep>& steps) {
     if (steps.empty()) return;
@@ -186,20 +199,26 @@ std::vector<Rest> ways_on(const Rest& rest, const Scene& scene, const Robot& rob
     if (std::none_of(out.begin(), out.end(), [&](const Rest& other) { return same_contacts(way, other); }))
       out.push_back(std::move(way));
   };
-  if (in_the_air) {
-    walk->elsewhere = kWayElsewhere;
-    for (const double ratio : {1.0, kWayShorter}) add(footsteps(*walk, scene, robot, ratio * kCommandStride));
-    walk->elsewhere = 0.0;
-    add(footsteps(*walk, scene, robot, kCommandStride));
-    return out;
-  }
-  for (const double ratio : {1.0, kWayShorter}) {
+  const auto step = [&](double ratio) {
     std::vector<std::vector<Footstep>> found;
-    for (walk->first = 0; walk->first < 2; ++walk->first)
+    for (int first = 0; first < (in_the_air ? 1 : 2); ++first) {
+      if (!in_the_air) walk->first = first;
       found.push_back(footsteps(*walk, scene, robot, ratio * kCommandStride));
+    }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
     for (const std::vector<Footstep>& steps : found) add(steps);
-  }
+  };
+  const std::vector<Route> routes = round.routes().empty() ? std::vector<Route>{{}} : round.routes();
+  walk->elsewhere = in_the_air ? kWayElsewhere : 0.0;
+  for (const double ratio : {1.0, kWayShorter})
+    for (const Route& route : routes) {
+      walk->route = route;
+      step(ratio);
+    }
+  if (!in_the_air) return out;
+  walk->elsewhere = 0.0;
+  walk->route = routes.front();
+  step(1.0);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "ddp/constants.hpp"
+#include "mcplan/base/rotation.hpp"
 #include "mcplan/ddp/plan.hpp"
 #include "scenes.hpp"
 
@@ -50,6 +51,23 @@ TEST_CASE("the rest of a plan moves as the plan does") {
       CHECK((there.com_velocity_W - here.com_velocity_W).norm() < 1e-9);
       CHECK((there.angular_momentum_W - here.angular_momentum_W).norm() < 1e-9);
     }
+  }
+}
+
+TEST_CASE("hands in the air are carried by the base: they stay where they are to it, and those that hold stay put") {
+  const Robot& robot = walk().robot;
+  Rest rest = rest_of(walk(), 1.0);
+  rest.plan.phases.front().contacts[2].surface = 0;
+  rest.plan.knots.front().base_rpy = {0.02, -0.05, 0.4};
+  const Plan before = rest.plan;
+  rest.carry_hands(robot);
+  const auto seen_from_base = [](const Knot& knot, int e) {
+    return Vector3d(rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[e] - knot.com_W));
+  };
+  for (int k = 1; k <= rest.size(); ++k) {
+    const Knot& knot = rest.plan.knots[k];
+    for (int e : {0, 1, 2}) CHECK(knot.end_effectors_W[e] == before.knots[k].end_effectors_W[e]);
+    CHECK((seen_from_base(knot, 3) - seen_from_base(rest.plan.knots.front(), 3)).norm() < 1e-12);
   }
 }
 

@@ -137,3 +137,26 @@ TEST_CASE("where the plan under way leads nowhere a replan leads to the goal, an
     }
   }
 }
+
+TEST_CASE("a replan leads on round a fence that a robot with hands has come to stand before") {
+  Scene scene = scenes::flat();
+  scene.goal.position_W = {2.0, 0.0, 0.0};
+  for (const auto& [name, y0, y1] : {std::tuple("right", -1.5, 0.1), {"left", 0.9, 1.5}}) {
+    scene.surfaces.push_back(scenes::rectangle(name, 0.9, 1.0, y0, y1, 0.6));
+    scene.surfaces.back().thickness = 0.6;
+    scene.surfaces.back().end_effectors = {};  // hands reach its top
+  }
+  const Robot robot = load_robot("talos");
+  Scene here = scene;
+  here.start.position_W = here.goal.position_W = {0.62, 0.1, 0.0};
+  const Plan stand = ddp::plan(here, robot).plan;
+  const double t = 0.5 * stand.duration();
+  Measured measured;
+  measured.state = rest_of(stand, t).plan.knots.front();
+  const PlanResult result = ddp::replan(stand, t, measured, scene, robot);
+  INFO(result.report.message);
+  REQUIRE(result.report.status == Status::solved);
+  CHECK(result.report.plan_from == PlanFrom::other_sequence);
+  CHECK(check(result.plan, scene, robot).ok());
+  CHECK(!ends_elsewhere(rest_of(result.plan, 0.0), scene, robot));
+}
