@@ -13,7 +13,20 @@ pytest.importorskip("example_robot_data")
 
 from mcplan.tracking.mujoco_model import build  # noqa: E402
 from mcplan.tracking.robot_dynamics import RobotDynamics  # noqa: E402
-from mcplan.tracking.separation import APART_M, KD, KP, LARGEST, MARGIN_RATIO, NEAR_M, ROWS, Separation, _pairs  # noqa: E402
+from mcplan.tracking.separation import (  # noqa: E402
+    APART_M,
+    ARM_APART_M,
+    ARM_NEAR_M,
+    ARM_ROWS,
+    KD,
+    KP,
+    LARGEST,
+    MARGIN_RATIO,
+    NEAR_M,
+    ROWS,
+    Separation,
+    _pairs,
+)
 from mcplan.tracking.states import to_mujoco  # noqa: E402
 
 
@@ -124,4 +137,69 @@ def test_rows_are_those_of_the_pairs_that_have_to_be_braked_first(seed):
     margins = np.minimum(APART_M, MARGIN_RATIO * distance)  # it is the nominal posture
     expected = (-KP * (distance - margins) - KD * rate)[distance < NEAR_M]
     assert len(expected) > 2 * ROWS
-    np.testing.assert_allclose(np.sort(least), np.minimum(np.sort(expected)[-ROWS:], LARGEST), rtol=0.02, atol=0.5)
+    desired = np.minimum(np.sort(expected)[-ROWS:], LARGEST)
+    np.testing.assert_allclose(np.sort(least[:ROWS]), desired, rtol=0.02, atol=0.5)
+
+
+def beside_a_wall(left_m):
+    """The floor, and a wall to the left of TALOS's hand in its nominal posture."""
+    scene = simulated.level()
+    wall = scene.surfaces[0].__copy__()
+    wall.name, wall.thickness = "wall", 1.5
+    wall.vertices_W = [[-1.0, left_m, 1.5], [1.0, left_m, 1.5], [1.0, left_m + 0.2, 1.5], [-1.0, left_m + 0.2, 1.5]]
+    scene.surfaces = [*scene.surfaces, wall]
+    return scene
+
+
+def arm_distances(model, dynamics):
+    """Of the shapes of the left arm from the wall, worked out by MuJoCo one by one."""
+    data = mujoco.MjData(model.mj)
+    data.qpos[:], _ = to_mujoco(model, dynamics.configuration, dynamics.velocity)
+    mujoco.mj_kinematics(model.mj, data)
+    arm = [
+        geom
+        for geom, name in model.geom_names.items()
+        if name.startswith(("arm_left", "wrist_left", "gripper_left", "left_hand"))
+    ]
+    return np.array([mujoco.mj_geomDistance(model.mj, data, geom, model.surface_geoms[1], 2.0, None) for geom in arm])
+
+
+@pytest.fixture(scope="module")
+def talos_at_wall():
+    model = build(mp.load_robot("talos"), beside_a_wall(0.6))
+    dynamics = RobotDynamics(model.urdf_model)
+    configuration = model.urdf_model.neutral.copy()
+    configuration[2] = 1.0
+    dynamics.update(configuration, np.zeros(model.urdf_model.model.nv))
+    configuration[1] += arm_distances(model, dynamics).min() - 0.5 * ARM_NEAR_M
+    dynamics.update(configuration, np.zeros(model.urdf_model.model.nv))
+    return model, dynamics
+
+
+def test_arms_of_free_hands_keep_off_a_wall_and_those_of_others_do_not(talos_at_wall):
+    model, dynamics = talos_at_wall
+    names = [end.name for end in model.urdf_model.robot.end_effectors]
+    near = arm_distances(model, dynamics)
+    for free, expected in (("left_hand", (near < ARM_NEAR_M).sum()), ("right_hand", 0), (None, 0)):
+        _, least = Separation(model).rows(dynamics, np.array([name == free for name in names]))
+        assert np.isfinite(least[ROWS:]).sum() == expected
+    assert 0 < (near < ARM_NEAR_M).sum() <= ARM_ROWS
+    unaware = Separation(model, terrain=False).rows(dynamics, np.ones(len(names), dtype=bool))
+    np.testing.assert_array_equal(unaware[1], least[:ROWS])
+
+
+def test_rows_of_an_arm_are_how_fast_it_comes_nearer_to_a_wall(talos_at_wall):
+    model, dynamics = talos_at_wall
+    free = np.array([end.kind == "hand" for end in model.urdf_model.robot.end_effectors])
+    rows, least = Separation(model).rows(dynamics, free)
+    nearest = arm_distances(model, dynamics).min()
+    row = ROWS  # the first one of arms
+    assert least[row] == pytest.approx(-KP * (nearest - ARM_APART_M), abs=1e-3 * KP)
+    # Along the world's y with the base, and as finite differences have it with the joints.
+    h, pin_model, moved = 1e-4, model.urdf_model.model, RobotDynamics(model.urdf_model)
+    for unit in np.eye(pin_model.nv):
+        there = []
+        for side in (-h, h):
+            moved.update(pin.integrate(pin_model, dynamics.configuration, side * unit), np.zeros(pin_model.nv))
+            there.append(arm_distances(model, moved).min())
+        assert rows[row] @ unit == pytest.approx((there[1] - there[0]) / (2.0 * h), abs=2e-2)

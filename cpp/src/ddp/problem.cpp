@@ -19,6 +19,15 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+/// Where a hand that may touch nothing is held where there is no room for its nominal place: arms of robots with a body
+/// fold in beside it as far as their box reaches.
+Vector3d folded_in(const Robot& robot, const EndEffector& hand) {
+  Vector3d place = hand.nominal_B;
+  if (!robot.trunk.empty())
+    place.y() = place.y() < 0.0 ? std::min(hand.reach_max_B.y(), 0.0) : std::max(hand.reach_min_B.y(), 0.0);
+  return place;
+}
+
 std::vector<int> addressed(const std::vector<std::string>& who, const Robot& robot, const std::vector<int>& active) {
   std::vector<int> out;
   for (std::size_t l = 0; l < active.size(); ++l)
@@ -157,7 +166,7 @@ std::vector<std::vector<int>> Problem::make_ends() {
       if (may_touch(scene.surfaces[i], robot.end_effectors[e])) list.push_back(static_cast<int>(i));
     if (list.empty() && options.method != Method::paper) {
       const EndEffector& end = robot.end_effectors[e];
-      if (end.kind != "foot") idle_hands.push_back(end.nominal_B / units.length);
+      if (end.kind != "foot") idle_hands.push_back(folded_in(robot, end) / units.length);
       continue;
     }
     active.push_back(static_cast<int>(e));

@@ -110,7 +110,7 @@ class Problem {
   double swing_room = kPathRoom;       ///< that soles keep from solids where swings are held out of them
   double reach_room = 0.0;             ///< contacts keep inside of their reach between the knots
   bool watch_swings = false;           ///< swings are held out of solids from the first attempt on
-  std::vector<Eigen::Vector3d> idle_hands;       ///< nominal places of hands that may touch nothing
+  std::vector<Eigen::Vector3d> idle_hands;       ///< hands that may touch nothing, folded in
   std::vector<int> standing_solids;              ///< surfaces whose solids come near the reference of the CoM
   std::vector<int> trunk_solids;                 ///< and those that come near the trunk there, of a robot that has one
   std::vector<Eigen::AlignedBox3d> solid_boxes;  ///< about the solids, where there are such

@@ -91,7 +91,7 @@ class Loop:
         on_ground = start.copy()
         on_ground[2] += options.ground_shift_m
         simulation.reset(on_ground, np.zeros(self.urdf_model.model.nv))
-        separation = Separation(simulation.model) if options.self_contacts else None
+        separation = Separation(simulation.model, true_scene is None) if options.self_contacts else None
         restraints = Restraints(simulation.model.motors, separation)
         desired = references(plan, self.robot, self.dt_s, options.hold_s)
         self.controller: Controller = Controller(self.urdf_model, plan.scene, desired, start, options.gains, restraints)

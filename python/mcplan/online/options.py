@@ -86,7 +86,7 @@ class OnlineOptions:
         for name, low, high, otherwise in (
             ("latency_s", 0.0, 1.0, "as long as its computation takes"),
             ("time_limit_s", 1e-3, 10.0, "the period, or none with a fixed latency"),
-            ("duration_s", 0.0, MAX_RUN_S, "as long as the walk takes"),
+            ("duration_s", 0.01, MAX_RUN_S, "as long as the walk takes"),
             ("told_at_s", 0.0, MAX_RUN_S, "never"),
             ("keep_s", 0.1, MAX_RUN_S, "all of the run"),
         ):

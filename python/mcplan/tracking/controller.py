@@ -144,7 +144,7 @@ class Controller:
             elif contact.mode is Mode.SEARCH and not searched:
                 contact.position_W = motions[i].position_W
         problem, supporting, force_map = self._problem(n, motions)
-        found = self.qp.solve(problem, tuple(supporting))
+        found = self.qp.solve(problem, (*supporting, len(problem.lower)))
         if found is not None:
             acceleration, forces = found[: self.nv], found[self.nv : self.nv + force_map.shape[1]]
             tau = self.dynamics.inertia[6:] @ acceleration + self.dynamics.bias[6:] - force_map[6:] @ forces
@@ -265,7 +265,7 @@ class Controller:
         torque = np.zeros((nv - 6, size))
         torque[:, :nv], torque[:, nv:-1] = inertia[6:], -force_map[6:]
         weakest, strongest = self.motors.bounds(self.dynamics.velocity[6:])
-        limits, low, high = self._limits(size)
+        limits, low, high = self._limits(n, size)
         problem = Problem(
             hessian,
             gradient,
@@ -277,14 +277,14 @@ class Controller:
         )
         return problem, supporting, force_map
 
-    def _limits(self, size: int) -> tuple[Array, Array, Array]:
+    def _limits(self, n: int, size: int) -> tuple[Array, Array, Array]:
         """Rows of what holds but for the slack, and their bounds: positions and speeds of joints, links kept apart."""
         nj, nv = self.nv - 6, self.nv
-        low, high = self._joint_bounds()
-        far = np.full(nj, np.inf)
+        (low, high), far = self._joint_bounds(), np.full(nj, np.inf)
         apart, least = np.zeros((0, nv)), np.zeros(0)
         if self.separation is not None:
-            apart, least = self.separation.rows(self.dynamics)
+            free = ~self.references.returns[n] & [contact.mode is Mode.FREE for contact in self.contacts]
+            apart, least = self.separation.rows(self.dynamics, free)
         limits = np.zeros((2 * nj + len(apart), size))
         joints = np.arange(nj)
         limits[joints, 6 + joints] = limits[nj + joints, 6 + joints] = 1.0
