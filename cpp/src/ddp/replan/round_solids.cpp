@@ -40,6 +40,19 @@ double room_at(const Ground& ground, const Vector3d& at_W) {
   return 0.0;
 }
 
+/// Whether a solid is in the way somewhere straight on. Looked at before routes are: of ground with gaps, which steps
+/// lead over, these take a grid of places.
+bool obstructed(const Ground& ground, const Vector3d& from_W, const Vector3d& to_W) {
+  const Vector2d way = (to_W - from_W).head<2>();
+  const int count = std::max(1, static_cast<int>(std::ceil(way.norm() / (kRoadSpacing * ground.stride()))));
+  for (int i = 0; i <= count; ++i) {
+    const std::vector<Place> places = ground.places(from_W.head<2>() + way * i / count);
+    if (!places.empty() && std::all_of(places.begin(), places.end(), [](const Place& p) { return p.solid >= 0; }))
+      return true;
+  }
+  return false;
+}
+
 /// The nearest point that a walk can begin from, straight on from where there is less room.
 std::optional<Vector3d> way_out(const Ground& ground, const Vector3d& from_W, double room) {
   const double step = kRoadSpacing * ground.stride();
@@ -62,7 +75,7 @@ std::optional<Vector3d> way_out(const Ground& ground, const Vector3d& from_W, do
 RoundSolids::RoundSolids(const Scene& scene, const Robot& robot, const ResolvedStance& from, const ResolvedStance& to)
     : ground_(scene, robot, from, to, -1.0) {
   const Vector3d down(0.0, 0.0, robot.com_height), here_W = from.com_W - down;
-  if (!ground_.has_feet() || !(ground_.stride() > 0.0)) return;
+  if (!ground_.has_feet() || !(ground_.stride() > 0.0) || !obstructed(ground_, here_W, to.com_W - down)) return;
   room_ = room_at(ground_, here_W);
   ResolvedStance begin = from;
   if (room_ < 1.0) {
@@ -71,7 +84,6 @@ RoundSolids::RoundSolids(const Scene& scene, const Robot& robot, const ResolvedS
     begin.com_W = *out + down;
   }
   const Routes found = find_routes(scene, robot, begin, to, -1.0);
-  if (room_ == 1.0 && found.straight) return;
   routes_ = found.detours;
   if (found.straight) routes_ = {{begin.com_W - down, to.com_W - down}};
   if (room_ < 1.0)

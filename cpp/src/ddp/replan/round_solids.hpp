@@ -15,7 +15,7 @@ class RoundSolids {
   /// `from` stands where a push may have left it: nearer to solids, too, than a walk begins.
   RoundSolids(const Scene& scene, const Robot& robot, const ResolvedStance& from, const ResolvedStance& to);
 
-  /// Cheapest first; empty where it leads straight on, and where nothing leads there.
+  /// Cheapest first; empty where no solid is in the way straight on, and where nothing leads there.
   const std::vector<Route>& routes() const { return routes_; }
 
   /// Whether there is room for the trunk above this point of the ground [m].
