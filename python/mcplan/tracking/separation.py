@@ -24,6 +24,8 @@ APART_M, MARGIN_RATIO = 0.01, 0.5
 NEAR_M, FAR_M = 0.05, 0.5
 #: Arms are kept so far off solids [m], and looked at from the second one on: their way to the side is longer.
 ARM_APART_M, ARM_NEAR_M = 0.02, 0.1
+#: Which solids arms may come near to is looked at anew after their shapes have moved so far [m]: there may be thousands.
+AHEAD_M = 0.4
 #: Number of rows of links, and of arms.
 ROWS, ARM_ROWS = 8, 8
 #: Gains [1/s^2, 1/s] by which a distance may approach APART_M, and the largest acceleration that it is opened with [m/s^2].
@@ -49,7 +51,9 @@ class Separation:
         self._arms = ArmPairs(model, terrain)
         links = np.array(_pairs(model), dtype=np.int64).reshape(-1, 2)
         self._pairs, self._links = np.vstack([links, self._arms.pairs]), len(links)
-        self._geoms = np.unique(self._pairs)
+        self._geoms = np.setdiff1d(self._pairs, model.surface_geoms)  # what moves
+        self._beside = np.arange(len(self._pairs))  # pairs that are looked at
+        self._ahead_m = -1.0  # how far shapes may move until others are
         names = list(model.urdf_model.model.names)
         joint_of = {model.mj.joint(name).bodyid[0]: names.index(name) for name in model.joints}
         joint_of[0] = 0  # the world, which nothing moves
@@ -101,7 +105,9 @@ class Separation:
         data.qpos[:], _ = to_mujoco(self._model, dynamics.configuration, dynamics.velocity)
         self._mujoco.mj_kinematics(mj, data)
         self._shrink()
-        pairs = np.flatnonzero(self._distance < self._near_m)
+        if self._ahead_m < 0.0:
+            self._look_about()
+        pairs = self._beside[self._distance[self._beside] < self._near_m[self._beside]]
         if len(pairs) and pairs[-1] >= self._links:
             pairs = self._of_arms(pairs, free)
         points, distances = np.zeros((len(pairs), 6)), np.zeros(len(pairs))
@@ -122,6 +128,13 @@ class Separation:
             near &= free[self._arms.hands[arms - self._links]]
         return np.concatenate([pairs[pairs < self._links], arms[near] if free is not None else arms[:0]])
 
+    def _look_about(self) -> None:
+        """Look at the solids that arms may come near to before they have moved by AHEAD_M, and at all links."""
+        arms = np.arange(self._links, len(self._pairs))
+        self._distance[arms] = self._arms.at_least(self._data, arms - self._links)
+        near = self._distance[arms] < ARM_NEAR_M + AHEAD_M
+        self._beside, self._ahead_m = np.concatenate([np.arange(self._links), arms[near]]), AHEAD_M
+
     def _nominal_distances(self) -> Array:
         """(n,) distance of each pair of links in the nominal posture, at most FAR_M."""
         urdf_model = self._model.urdf_model
@@ -138,7 +151,8 @@ class Separation:
             shift, turn = (now - before for now, before in zip(places, self._places, strict=True))
             turned = np.sqrt(np.einsum("ij,ij->i", turn, turn)) * self._mj.geom_rbound[self._geoms]
             self._moved[self._geoms] = np.sqrt(np.einsum("ij,ij->i", shift, shift)) + turned
-            self._distance -= self._moved[self._pairs].sum(axis=1)
+            self._distance[self._beside] -= self._moved[self._pairs[self._beside]].sum(axis=1)
+            self._ahead_m -= float(self._moved.max())
         self._places = places
 
 
