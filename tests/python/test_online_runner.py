@@ -302,7 +302,7 @@ def test_a_velocity_is_walked_at(plan):
         ),
         (
             {"duration": -1.0},
-            r"duration_s: must lie in 0 to 3600 s, or be left out \(nan\): as long as the walk takes, got -1",
+            r"duration_s: must lie in 0.01 to 3600 s, or be left out \(nan\): as long as the walk takes, got -1",
         ),
         ({"push": (250.0, 0.2, 99.0, 0.0)}, r"pushes\[0\].at_s: must lie before the end"),
     ],
