@@ -229,3 +229,23 @@ TEST_CASE("friction is planned a little tighter than the surface's, in as many s
     }
   }
 }
+
+TEST_CASE(
+    "hands that may touch nothing are held at their nominal place, beside a trunk as far in as their box reaches") {
+  mcplan::Robot robot = scenes::humanoid44();
+  mcplan::Scene scene = scenes::flat();
+  scene.surfaces.front().end_effectors = {"foot"};
+  for (const bool trunk : {false, true}) {
+    if (trunk) robot.trunk.push_back({Vector3d(0, 0, 0.1), Vector3d(0, 0, 0.4), 0.1});
+    const Problem problem(scene, robot, Options());
+    REQUIRE(problem.idle_hands.size() == 2);
+    for (int i : {0, 1}) {
+      const mcplan::EndEffector& hand = robot.end_effectors[2 + i];
+      const Vector3d place = problem.idle_hands[i] * problem.units.length;
+      const double inner = i == 0 ? hand.reach_max_B.y() : hand.reach_min_B.y();
+      CHECK(place.x() == doctest::Approx(hand.nominal_B.x()));
+      CHECK(place.y() == doctest::Approx(trunk ? inner : hand.nominal_B.y()));
+      CHECK(place.z() == doctest::Approx(hand.nominal_B.z()));
+    }
+  }
+}

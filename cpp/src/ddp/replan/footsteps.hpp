@@ -32,8 +32,8 @@ struct Walk {
   int first = 0;                  ///< of the two: who steps first; a foot in the air has to
   std::vector<Foothold> offered;  ///< where the first step may be made besides
   double elsewhere = 0.0;         ///< [1/CoM heights] price of a first step by how far it is from the first of these
-  const RoundSolids* round = nullptr;  ///< what is in the way, if anything
-  Route route;                         ///< round it
+  const RoundSolids* round = nullptr;  ///< given where there is a route
+  Route route;                         ///< round what is in the way; empty: straight on
 };
 
 /// The cheapest alternating steps that lead there over the surfaces that the feet may touch, with strides up to a ratio

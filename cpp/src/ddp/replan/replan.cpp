@@ -130,9 +130,6 @@ void as_planned_or_with_a_hand(const Rest& rest, Rest& near, Now& now, Trials& t
 /// of the best timing: with one of them feet of the G1 came to graze treads of `stairs_broad`, which it walks well
 /// where all of its 28 phases are planned anew. Measured.
 constexpr int kHorizonsToGoal = 2;
-/// So many ways to the goal are tried. Chosen: each takes as long as the plan's own sequence.
-constexpr std::size_t kWaysTried = 3;
-
 /// By other steps to the goal than those of the plan, from what the rest begins with. Where they exceed limits, a stand
 /// is better than to begin on them.
 void go_another_way(const Rest& begun, const Now& now, Trials& trials) {

@@ -212,10 +212,11 @@ std::vector<Rest> ways_on(const Rest& rest, const Scene& scene, const Robot& rob
   walk->elsewhere = in_the_air ? kWayElsewhere : 0.0;
   for (const double ratio : {1.0, kWayShorter})
     for (const Route& route : routes) {
+      if (out.size() >= kWaysTried) break;
       walk->route = route;
       step(ratio);
     }
-  if (!in_the_air) return out;
+  if (!in_the_air || out.size() >= kWaysTried) return out;
   walk->elsewhere = 0.0;
   walk->route = routes.front();
   step(1.0);
